@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: MIT
+# What `cmake --install` puts where: library, headers, CMake package, pkg-config file; the
+# tool installs itself. All paths are relative to the prefix, so that an installed tree can
+# be moved.
+option(CREVICE_INSTALL "Make rules for installation" ${PROJECT_IS_TOP_LEVEL})
+if(NOT CREVICE_INSTALL)
+    return()
+endif()
+include(CMakePackageConfigHelpers)
+
+set(crevice_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/crevice)
+install(TARGETS crevice EXPORT creviceTargets)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/crevice
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(EXPORT creviceTargets NAMESPACE crevice:: DESTINATION ${crevice_cmake_dir})
+
+# A static library leaves its own dependencies to whoever links it.
+get_target_property(crevice_type crevice TYPE)
+set(crevice_find_openmp OFF)
+set(crevice_pc_private -lm)
+if(CREVICE_OPENMP)
+    find_package(OpenMP QUIET COMPONENTS C)
+    if(OpenMP_C_FOUND)
+        string(APPEND crevice_pc_private " ${OpenMP_C_FLAGS}")
+        if(crevice_type STREQUAL "STATIC_LIBRARY")
+            set(crevice_find_openmp ON)
+        endif()
+    endif()
+endif()
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/creviceConfig.cmake.in
+    ${PROJECT_BINARY_DIR}/creviceConfig.cmake INSTALL_DESTINATION ${crevice_cmake_dir})
+# Before 1.0 a minor version may break what the one before promised.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/creviceConfigVersion.cmake
+    COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/creviceConfig.cmake
+    ${PROJECT_BINARY_DIR}/creviceConfigVersion.cmake DESTINATION ${crevice_cmake_dir})
+
+# Where only the static library is installed, `pkg-config --libs` needs no --static.
+set(crevice_pc_cflags "")
+set(crevice_pc_libs "")
+if(crevice_type STREQUAL "STATIC_LIBRARY")
+    set(crevice_pc_cflags " -DCRV_STATIC")
+    set(crevice_pc_libs " ${crevice_pc_private}")
+    set(crevice_pc_private "")
+endif()
+if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}")
+    set(crevice_pc_prefix ${CMAKE_INSTALL_PREFIX})
+    set(crevice_pc_libdir ${CMAKE_INSTALL_LIBDIR})
+else()
+    file(RELATIVE_PATH crevice_pc_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+    string(REGEX REPLACE "/$" "" crevice_pc_prefix "\${pcfiledir}/${crevice_pc_prefix}")
+    set(crevice_pc_libdir "\${prefix}/${CMAKE_INSTALL_LIBDIR}")
+endif()
+if(IS_ABSOLUTE "${CMAKE_INSTALL_INCLUDEDIR}")
+    set(crevice_pc_includedir ${CMAKE_INSTALL_INCLUDEDIR})
+else()
+    set(crevice_pc_includedir "\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}")
+endif()
+configure_file(${PROJECT_SOURCE_DIR}/cmake/crevice.pc.in ${PROJECT_BINARY_DIR}/crevice.pc
+    @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/crevice.pc
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+if(TARGET crevice_tool)
+    # The tool finds its library beside itself, wherever the tree lies.
+    if(NOT IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}" AND NOT IS_ABSOLUTE "${CMAKE_INSTALL_BINDIR}")
+        file(RELATIVE_PATH crevice_rpath /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
+        set_target_properties(crevice_tool PROPERTIES INSTALL_RPATH "$ORIGIN/${crevice_rpath}")
+    endif()
+endif()

@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * base.h: version, status codes, and the three hooks through which the host keeps
+ * control: where messages go, where memory comes from, who runs the parallel loops.
+ */
+#ifndef CREVICE_BASE_H
+#define CREVICE_BASE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define CRV_VERSION_MAJOR 0
+#define CRV_VERSION_MINOR 1
+#define CRV_VERSION_PATCH 0
+
+#if defined(CRV_STATIC)
+#define CRV_API
+#elif defined(_WIN32)
+#if defined(CRV_BUILD)
+#define CRV_API __declspec(dllexport)
+#else
+#define CRV_API __declspec(dllimport)
+#endif
+#elif defined(__GNUC__)
+#define CRV_API __attribute__((visibility("default")))
+#else
+#define CRV_API
+#endif
+
+/* The version of the library that is linked, "major.minor.patch". Static storage.
+ * Thread-safe. */
+CRV_API const char *crv_version(void);
+
+/* What a call came to. Every function that can fail returns one of these; outputs are
+ * untouched unless it is CRV_OK. */
+typedef enum crv_status {
+    CRV_OK = 0,
+    CRV_ERROR_INVALID_ARGUMENT =
+        1, /* NULL, a size, a range, a NaN, a stride: the log says which */
+    CRV_ERROR_OUT_OF_MEMORY =
+        2, /* the allocator returned NULL, or a size does not fit size_t */
+    CRV_ERROR_UNSUPPORTED = 3, /* valid, but not by this build, method or device */
+    CRV_ERROR_NOT_READY = 4 /* called too early: the G-buffer has no camera or no depth */
+} crv_status;
+
+/* A short English name of a status ("out of memory"). Static storage; never NULL, also
+ * for values that are not a crv_status. Thread-safe. */
+CRV_API const char *crv_status_string(crv_status status);
+
+/* The candidate that a misspelt word most likely means, by edit distance without regard
+ * to case, or NULL where none is near. candidates: `count` strings, or up to a NULL where
+ * count is -1. Thread-safe. */
+CRV_API const char *crv_nearest_name(const char *word, const char *const *candidates,
+                                     int32_t count);
+
+typedef enum crv_log_level {
+    CRV_LOG_ERROR = 0,   /* a call failed; the line says why and what to do */
+    CRV_LOG_WARNING = 1, /* a call did its work but ignored or changed something */
+    CRV_LOG_INFO = 2
+} crv_log_level;
+
+/* Where messages go. A logger with fn == NULL is silent; functions that take a
+ * `const crv_logger *` take NULL for the same. */
+typedef struct crv_logger {
+    /* Receives one line without a newline. `line` is valid during the call only. Called
+     * on the thread that called into Crevice. */
+    void (*fn)(void *user, crv_log_level level, const char *line);
+    void *user; /* handed to fn; not owned */
+} crv_logger;
+
+/* Where memory comes from. Both functions or neither (then malloc's aligned cousin is
+ * used). Called only inside create, set and destroy functions, never inside
+ * crv_plan_run(). */
+typedef struct crv_allocator {
+    /* Returns `size` bytes (> 0) aligned to `alignment` (a power of two), or NULL. */
+    void *(*allocate)(void *user, size_t size, size_t alignment);
+    /* Takes back what allocate returned, with the same size. Never called with NULL. */
+    void (*release)(void *user, void *memory, size_t size);
+    void *user; /* handed to both; not owned */
+} crv_allocator;
+
+/* Who runs parallel loops. With run == NULL OpenMP does, where the library was built with
+ * it, and the calling thread alone otherwise. */
+typedef struct crv_parallel {
+    /* Calls task(data, i) once for every i in [0, count), on any threads in any order,
+     * and returns when all are done. Results do not depend on the order. */
+    void (*run)(void *user, uint32_t count, void (*task)(void *data, uint32_t index),
+                void *data);
+    void *user; /* handed to run; not owned */
+} crv_parallel;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

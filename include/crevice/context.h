@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * context.h: the objects that do the work. A context holds the hooks; a plan holds the
+ * memory of one method with one set of options on G-buffers of one size, and runs any
+ * number of frames without allocating.
+ */
+#ifndef CREVICE_CONTEXT_H
+#define CREVICE_CONTEXT_H
+
+#include "gbuffer.h"
+#include "options.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Fill it with crv_context_desc_init(), then change what differs. */
+typedef struct crv_context_desc {
+    size_t struct_size;      /* set by crv_context_desc_init() */
+    crv_logger logger;       /* default: silent */
+    crv_allocator allocator; /* default: the C library's */
+    crv_parallel parallel;   /* default: OpenMP, or one thread where built without */
+    int32_t threads; /* OpenMP only: 1 to 1024, or 0 (default) for what OpenMP chooses */
+} crv_context_desc;
+
+/* Sets the defaults. Pass sizeof *desc as struct_size. Thread-safe. */
+CRV_API void crv_context_desc_init(crv_context_desc *desc, size_t struct_size);
+
+/*
+ * Hooks, and nothing else: there is no global state. A context and all that was made with
+ * it serve one thread at a time; different contexts are independent.
+ */
+typedef struct crv_context crv_context;
+
+/* desc NULL: the defaults. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. Thread-safe. */
+CRV_API crv_status crv_context_create(const crv_context_desc *desc, crv_context **out);
+
+/* Everything made with the context must have been destroyed. NULL does nothing. */
+CRV_API void crv_context_destroy(crv_context *context);
+
+typedef struct crv_plan crv_plan;
+
+/*
+ * Checks the options, builds sample patterns and takes the memory that a run needs: 4
+ * bytes for each pixel of the result, and as much again for the filter. Options and desc
+ * are copied. *out must be destroyed before its context. Errors: INVALID_ARGUMENT,
+ * OUT_OF_MEMORY.
+ */
+CRV_API crv_status crv_plan_create(crv_context *context, const crv_options *options,
+                                   const crv_gbuffer_desc *desc, crv_plan **out);
+
+/* NULL does nothing. */
+CRV_API void crv_plan_destroy(crv_plan *plan);
+
+/*
+ * Computes the accessibility of every pixel inside the guard band, filtered if the
+ * options say so: 1 is open, 0 fully occluded, background is 1; always finite and in [0,
+ * 1]. result: one channel, width - guard_left - guard_right by height - guard_top -
+ * guard_bottom. Allocates nothing; the same input gives the same bits for any number of
+ * threads. A plan may run on any G-buffer made with an equal desc and the same context.
+ * Errors: INVALID_ARGUMENT; NOT_READY where the G-buffer lacks its camera or a depth
+ * layer.
+ */
+CRV_API crv_status crv_plan_run(crv_plan *plan, crv_gbuffer *gbuffer,
+                                const crv_image *result);
+
+/*
+ * Applies the plan's filter to an accessibility image of the result's size, such as one
+ * that was computed elsewhere; copies it where the plan has no filter. Values that are
+ * not finite are taken as 1. input and result may be the same image. Allocates nothing.
+ * Errors: as crv_plan_run().
+ */
+CRV_API crv_status crv_plan_filter(crv_plan *plan, crv_gbuffer *gbuffer,
+                                   const crv_image *input, const crv_image *result);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

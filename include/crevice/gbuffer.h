@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * gbuffer.h: what an estimator sees of the scene: camera, one to four depth layers,
+ * normals.
+ *
+ * Depth and normals are converted once, on entry, to planar linear depth and unit
+ * view-space normals. A depth that is NaN, infinite, zero or negative is background: it
+ * gets accessibility 1 and never occludes. So does everything outside the buffers.
+ */
+#ifndef CREVICE_GBUFFER_H
+#define CREVICE_GBUFFER_H
+
+#include "camera.h"
+#include "image.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define CRV_MAX_LAYERS 4
+
+struct crv_context;
+
+/* What the numbers in a depth image mean. */
+typedef enum crv_depth_encoding {
+    CRV_DEPTH_PLANAR = 0, /* distance along the viewing axis, scene units */
+    CRV_DEPTH_RADIAL =
+        1, /* distance from the eye, scene units (orthographic: as planar) */
+    CRV_DEPTH_HARDWARE =
+        2, /* depth buffer in [0, 1], 0 at near, 1 at far. This is also what
+              an OpenGL depth texture holds with the default glDepthRange */
+    CRV_DEPTH_REVERSED = 3, /* depth buffer in [0, 1], 1 at near, 0 at far */
+    CRV_DEPTH_DISPARITY = 4 /* 1 / planar depth; 0 is background */
+} crv_depth_encoding;
+
+/* Fill it with crv_depth_format_planar() or by hand. */
+typedef struct crv_depth_format {
+    crv_depth_encoding encoding;
+    float z_near; /* > 0 (orthographic: any), scene units; hardware and reversed only */
+    float z_far;  /* > z_near, INFINITY for an infinite projection (perspective only) */
+    float background; /* planar and radial: this depth and all beyond is background. > 0,
+                         or INFINITY where only non-finite depth is. Some renderers write
+                         1e10 */
+} crv_depth_format;
+
+/* Planar depth without a background threshold: what most callers want. Thread-safe. */
+CRV_API crv_depth_format crv_depth_format_planar(void);
+
+/* The space in which normals are given. */
+typedef enum crv_normal_space {
+    CRV_NORMAL_VIEW = 0, /* as camera.h defines it */
+    CRV_NORMAL_WORLD = 1 /* turned to view space by the camera's world_to_view */
+} crv_normal_space;
+
+/* Sizes of a G-buffer. Fill it with crv_gbuffer_desc_init(), then change what differs. */
+typedef struct crv_gbuffer_desc {
+    size_t struct_size; /* set by crv_gbuffer_desc_init() */
+    int32_t width;      /* px, of all buffers, guard band included; 1 to CRV_MAX_SIZE */
+    int32_t height;     /* px */
+    int32_t layers;     /* 1 to CRV_MAX_LAYERS; layer 0 is what the camera sees */
+    /* Guard band: so many px on each side are read as occluders but get no result. 0 or
+     * more; the rectangle that is left must not be empty. */
+    int32_t guard_left, guard_top, guard_right, guard_bottom;
+    /* Position of the result's first pixel in the whole picture, any value: keeps the
+     * noise pattern continuous where a picture is computed in pieces. Default 0, 0. */
+    int32_t origin_x, origin_y;
+} crv_gbuffer_desc;
+
+/* Sets everything: one layer of width x height, no guard band. Pass sizeof *desc as
+ * struct_size. Thread-safe. */
+CRV_API void crv_gbuffer_desc_init(crv_gbuffer_desc *desc, size_t struct_size,
+                                   int32_t width, int32_t height);
+
+/*
+ * Owns converted buffers; made once and filled anew for each frame, in this order:
+ * camera, depth of every layer, normals. One thread at a time, the one that uses its
+ * context.
+ */
+typedef struct crv_gbuffer crv_gbuffer;
+
+/* Makes an empty G-buffer in *out. It must be destroyed before its context. Errors:
+ * INVALID_ARGUMENT (logged), OUT_OF_MEMORY. */
+CRV_API crv_status crv_gbuffer_create(struct crv_context *context,
+                                      const crv_gbuffer_desc *desc, crv_gbuffer **out);
+
+/* NULL does nothing. */
+CRV_API void crv_gbuffer_destroy(crv_gbuffer *gbuffer);
+
+/* Begins a frame: copies the camera and forgets depth and normals of the frame before.
+ * Errors: INVALID_ARGUMENT where a number is not finite, fx_px or fy_px is not positive,
+ * or world_to_view is not a rotation (a reflection included; tolerance 1e-3). */
+CRV_API crv_status crv_gbuffer_set_camera(crv_gbuffer *gbuffer, const crv_camera *camera);
+
+/*
+ * Converts one depth layer. image: one channel, the G-buffer's size; read during the call
+ * only. format NULL: planar. A hardware depth equal to the far value is background.
+ * Errors: NOT_READY before crv_gbuffer_set_camera(), INVALID_ARGUMENT.
+ */
+CRV_API crv_status crv_gbuffer_set_depth(crv_gbuffer *gbuffer, int32_t layer,
+                                         const crv_image *image,
+                                         const crv_depth_format *format);
+
+/*
+ * Takes the normals of layer 0. image: three channels, the G-buffer's size; read during
+ * the call only; need not be of unit length. NULL, or no call at all: normals are
+ * reconstructed from depth. Pixels whose normal is zero or not finite are reconstructed
+ * one by one; normals that face away from the camera are turned or bent towards it.
+ * Errors: NOT_READY, INVALID_ARGUMENT.
+ */
+CRV_API crv_status crv_gbuffer_set_normals(crv_gbuffer *gbuffer, const crv_image *image,
+                                           crv_normal_space space);
+
+/* Writes a layer as planar depth, background as +INFINITY, to a one-channel image of the
+ * G-buffer's size. Errors: NOT_READY, INVALID_ARGUMENT. */
+CRV_API crv_status crv_gbuffer_get_depth(crv_gbuffer *gbuffer, int32_t layer,
+                                         const crv_image *image);
+
+/* Writes the unit view-space normals that estimators use, reconstructed ones included and
+ * background as (0, 0, 0), to a three-channel image of the G-buffer's size. Errors:
+ * NOT_READY, INVALID_ARGUMENT. */
+CRV_API crv_status crv_gbuffer_get_normals(crv_gbuffer *gbuffer, const crv_image *image);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * options.h: methods, filters, and every number that steers them.
+ *
+ * One table describes the options; defaults, checks, the command line and its help all
+ * come from it. The registries of methods and filters can be walked, so that a host's
+ * user interface needs no list of its own. Everything here is thread-safe: the tables are
+ * constant.
+ */
+#ifndef CREVICE_OPTIONS_H
+#define CREVICE_OPTIONS_H
+
+#include "base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The weight of the hemisphere that a method integrates over, w a direction, n the
+ * normal. V = 1 where the ray is blocked, W the falloff. */
+typedef enum crv_weighting {
+    CRV_WEIGHTING_UNIFORM = 0, /* A = 1 - 1/(2 pi) Int V W dw */
+    CRV_WEIGHTING_COSINE = 1   /* A = 1 - 1/pi Int V W (n.w) dw */
+} crv_weighting;
+
+/* How the weight W of an occluder falls with its distance r < radius R; q = r / R. From R
+ * on, W = 0. */
+typedef enum crv_falloff {
+    CRV_FALLOFF_NONE = 0,        /* 1 */
+    CRV_FALLOFF_LINEAR = 1,      /* 1 - q */
+    CRV_FALLOFF_SQRT = 2,        /* 1 - sqrt(q) */
+    CRV_FALLOFF_CUBIC = 3,       /* 1 - q^3 */
+    CRV_FALLOFF_EXPONENTIAL = 4, /* exp(-tau q), option `tau` */
+    CRV_FALLOFF_ALCHEMY = 5      /* u q / max(u, q)^2, option `u`: rises to 1 at q = u */
+} crv_falloff;
+
+/* How horizon methods apply the falloff. */
+typedef enum crv_attenuation {
+    CRV_ATTENUATION_SLAB = 0, /* each occluder weighs the elevations that it is first to
+                                 block: the exact integral of W */
+    CRV_ATTENUATION_HORIZON =
+        1 /* the whole slice weighs as its highest occluder does: eq. 3 of
+             Bavoil, Sainz, Dimitrov 2008, read literally */
+} crv_attenuation;
+
+/* A method, one of the registry. Static storage. */
+typedef struct crv_method {
+    const char *name;  /* "hbao" */
+    const char *title; /* "Horizon-based ambient occlusion" */
+    const char *paper; /* authors, year, title */
+    crv_weighting weighting;
+    const char *const *options; /* keys of the options that it reads, NULL-terminated;
+                                   those that every method reads are not listed */
+} crv_method;
+
+/* A filter, one of the registry. Static storage. */
+typedef struct crv_filter {
+    const char *name;  /* "bilateral13" */
+    const char *title; /* what it does, a line */
+    const char *paper;
+    const char *const *options; /* keys of the options that it reads, NULL-terminated */
+} crv_filter;
+
+/* The registries: index in [0, count), NULL beyond; find returns NULL for an unknown
+ * name. */
+CRV_API int32_t crv_method_count(void);
+CRV_API const crv_method *crv_method_at(int32_t index);
+CRV_API const crv_method *crv_method_find(const char *name);
+CRV_API int32_t crv_filter_count(void);
+CRV_API const crv_filter *crv_filter_at(int32_t index);
+CRV_API const crv_filter *crv_filter_find(const char *name);
+
+/* Everything that steers a run. Begin with crv_options_init(); a zeroed struct is not
+ * valid. The option table holds default, range and help of each. Bool options are int32_t
+ * 0 or 1. */
+typedef struct crv_options {
+    size_t struct_size;       /* set by crv_options_init() */
+    const crv_method *method; /* default hbao */
+    const crv_filter *filter; /* NULL: none. Default bilateral13 */
+    float radius;             /* radius of influence, scene units */
+    crv_falloff falloff;
+    float tau;          /* exponential falloff: decay over one radius */
+    float u;            /* alchemy falloff: where it peaks, in radii */
+    int32_t directions; /* Nd */
+    int32_t steps;      /* Ns, per direction */
+    float bias_deg;     /* raises the tangent: occluders lower than this over the surface
+                           are ignored */
+    crv_attenuation attenuation;
+    float max_radius_px; /* the projected radius is sampled no farther than this; 0: no
+                            cap */
+    float intensity;     /* A' = max(0, 1 - intensity (1 - A))^contrast */
+    float contrast;
+    int32_t noise_size; /* edge of the noise tile, px */
+    int32_t seed;       /* another noise tile */
+    float
+        filter_depth; /* depth deviation at which a filter tap stops counting, in radii */
+    int32_t filter_slope; /* measure that deviation from the surface's slope, not from the
+                             centre's depth (what the papers do) */
+} crv_options;
+
+/* Sets every option to its default for the named method (NULL: hbao). Pass sizeof
+ * *options as struct_size. CRV_ERROR_INVALID_ARGUMENT: options is NULL, the size is not a
+ * known one, or no such method (options untouched). */
+CRV_API crv_status crv_options_init(crv_options *options, size_t struct_size,
+                                    const char *method);
+
+typedef enum crv_option_type {
+    CRV_OPTION_FLOAT = 0,
+    CRV_OPTION_INT = 1,
+    CRV_OPTION_BOOL = 2,
+    CRV_OPTION_CHOICE =
+        3 /* an enum; choices lists the names, in the order of its values */
+} crv_option_type;
+
+/* A row of the table. Static storage. */
+typedef struct crv_option {
+    const char *key; /* "max_radius_px": the name of the struct's member */
+    crv_option_type type;
+    const char *unit;               /* "px"; "" where there is none */
+    double default_value, min, max; /* inclusive; a choice's are its values */
+    const char *const *choices;     /* NULL-terminated, choices only; else NULL */
+    const char *help;               /* one line */
+} crv_option;
+
+/* The table without method and filter: index in [0, count), NULL beyond. find takes
+ * dashes for underscores and returns NULL for an unknown key. */
+CRV_API int32_t crv_option_count(void);
+CRV_API const crv_option *crv_option_at(int32_t index);
+CRV_API const crv_option *crv_option_find(const char *key);
+
+/* Whether this method with this filter (NULL: none) reads the option: 1 or 0. */
+CRV_API int crv_option_applies(const crv_option *option, const crv_method *method,
+                               const crv_filter *filter);
+
+/* Sets an option from text, `method` and `filter` ("none" for none) included. Numbers as
+ * strtod reads them, bool as 0/1/true/false/on/off/yes/no, choices by name. An unknown
+ * key or name is logged with the nearest known one. Errors: INVALID_ARGUMENT, options
+ * untouched. */
+CRV_API crv_status crv_options_set(crv_options *options, const char *key,
+                                   const char *value, const crv_logger *logger);
+
+/* The value of an option; choices and bools as numbers. NaN where an argument is NULL. */
+CRV_API double crv_options_get(const crv_options *options, const crv_option *option);
+
+/* Checks every value against the table (INVALID_ARGUMENT, with a line that names the
+ * option), and warns of options that differ from their default but are not read by the
+ * chosen method and filter. */
+CRV_API crv_status crv_options_check(const crv_options *options,
+                                     const crv_logger *logger);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT */
+#include "base/log.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+static void log_line(const crv_logger *logger, crv_log_level level, const char *format,
+                     va_list arguments)
+{
+    if (!logger || !logger->fn)
+        return;
+    char line[512];
+    vsnprintf(line, sizeof line, format, arguments);
+    logger->fn(logger->user, level, line);
+}
+
+void crv__log(const crv_logger *logger, crv_log_level level, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    log_line(logger, level, format, arguments);
+    va_end(arguments);
+}
+
+crv_status crv__fail(const crv_logger *logger, crv_status status, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    log_line(logger, CRV_LOG_ERROR, format, arguments);
+    va_end(arguments);
+    return status;
+}

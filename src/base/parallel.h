@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: MIT */
+#ifndef CRV_BASE_PARALLEL_H
+#define CRV_BASE_PARALLEL_H
+
+#include "crevice/base.h"
+
+/* Calls task(data, i) for every i in [0, count) through the host's hook, through OpenMP
+ * with `threads` threads (0: its own choice), or on this thread. */
+void crv__parallel_for(const crv_parallel *hook, int32_t threads, uint32_t count,
+                       void (*task)(void *data, uint32_t index), void *data);
+
+#endif

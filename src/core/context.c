@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: MIT */
+#include "core/context.h"
+
+#include <string.h>
+
+enum { MAX_THREADS = 1024 };
+
+void crv_context_desc_init(crv_context_desc *desc, size_t struct_size)
+{
+    if (!desc || struct_size < sizeof desc->struct_size)
+        return;
+    memset(desc, 0, struct_size);
+    desc->struct_size = struct_size;
+}
+
+crv_status crv_context_create(const crv_context_desc *desc, crv_context **out)
+{
+    crv_context_desc defaults;
+    crv_context_desc_init(&defaults, sizeof defaults);
+    if (!desc)
+        desc = &defaults;
+    if (desc->struct_size != sizeof *desc)
+        return CRV_ERROR_INVALID_ARGUMENT;
+    const crv_logger *logger = &desc->logger;
+    if (!out)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT, "context: out is NULL");
+    if (!desc->allocator.allocate != !desc->allocator.release)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "context: the allocator needs both functions or neither");
+    if (desc->threads < 0 || desc->threads > MAX_THREADS)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "context: %d threads; use 1 to %d, or 0 for a sensible number",
+                         desc->threads, MAX_THREADS);
+    crv_allocator allocator =
+        desc->allocator.allocate ? desc->allocator : crv__default_allocator();
+    crv_context *context = crv__allocate(&allocator, 1, sizeof *context);
+    if (!context)
+        return crv__fail(logger, CRV_ERROR_OUT_OF_MEMORY, "context: out of memory");
+    *context = (crv_context){desc->logger, allocator, desc->parallel, desc->threads};
+    *out = context;
+    return CRV_OK;
+}
+
+void crv_context_destroy(crv_context *context)
+{
+    if (!context)
+        return;
+    crv_allocator allocator = context->allocator;
+    crv__release(&allocator, context, 1, sizeof *context);
+}

@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: MIT */
+/* Depth encodings, converted once on the way in to planar depth with background INFINITY.
+ */
+#include "core/gbuffer.h"
+
+#include <math.h>
+
+crv_depth_format crv_depth_format_planar(void)
+{
+    return (crv_depth_format){CRV_DEPTH_PLANAR, 0, 0, INFINITY};
+}
+
+/*
+ * A hardware depth v in [0, 1] is affine in 1/d (perspective) or in d (orthographic):
+ *     d = 1 / (a + b v)   or   d = a + b v.
+ */
+typedef struct depth_job {
+    crv_gbuffer *gbuffer;
+    const crv_image *image;
+    int32_t layer;
+    crv_depth_format format;
+    double a, b;
+} depth_job;
+
+static double planar_of_hardware(const depth_job *job, double v)
+{
+    const double far_value = job->format.encoding == CRV_DEPTH_REVERSED ? 0 : 1;
+    if (v == far_value || !(v >= 0 && v <= 1))
+        return INFINITY;
+    const double affine = job->a + job->b * v;
+    if (job->gbuffer->camera.projection == CRV_ORTHOGRAPHIC)
+        return affine;
+    return affine > 0 ? 1 / affine : INFINITY;
+}
+
+static double planar_depth(const depth_job *job, int32_t x, int32_t y, double v)
+{
+    const crv_camera *c = &job->gbuffer->camera;
+    switch (job->format.encoding) {
+    case CRV_DEPTH_PLANAR:
+        return v < (double)job->format.background ? v : INFINITY;
+    case CRV_DEPTH_RADIAL: {
+        if (!(v < (double)job->format.background))
+            return INFINITY;
+        if (c->projection == CRV_ORTHOGRAPHIC)
+            return v;
+        const double u = (x + 0.5 - (double)c->cx_px) / (double)c->fx_px;
+        const double w = (y + 0.5 - (double)c->cy_px) / (double)c->fy_px;
+        return v / sqrt(1 + u * u + w * w);
+    }
+    case CRV_DEPTH_HARDWARE:
+    case CRV_DEPTH_REVERSED:
+        return planar_of_hardware(job, v);
+    case CRV_DEPTH_DISPARITY:
+        return 1 / v;
+    }
+    return INFINITY;
+}
+
+static void convert_row(void *data, uint32_t row)
+{
+    const depth_job *job = data;
+    const int32_t y = (int32_t)row;
+    float *out = crv__plane_at(&job->gbuffer->depth[job->layer], 0, y);
+    for (int32_t x = 0; x < job->gbuffer->desc.width; x++) {
+        const float d =
+            (float)planar_depth(job, x, y, (double)*crv_image_at(job->image, x, y, 0));
+        out[x] = d > 0 && d < INFINITY ? d : INFINITY; /* NaN fails both */
+    }
+}
+
+/* The affine map of a hardware depth. Standard: v = 0 at near, 1 at far; reversed: 1 - v.
+ */
+static void hardware_coefficients(depth_job *job)
+{
+    const double near_depth = (double)job->format.z_near,
+                 far_depth = (double)job->format.z_far;
+    const int orthographic = job->gbuffer->camera.projection == CRV_ORTHOGRAPHIC;
+    const double at_near = orthographic ? near_depth : 1 / near_depth;
+    const double at_far =
+        orthographic ? far_depth : 1 / far_depth; /* 0 where far is infinite */
+    const int reversed = job->format.encoding == CRV_DEPTH_REVERSED;
+    job->a = reversed ? at_far : at_near;
+    job->b = reversed ? at_near - at_far : at_far - at_near;
+}
+
+static crv_status check_format(const crv_gbuffer *g, const crv_depth_format *format)
+{
+    const crv_logger *logger = &g->context->logger;
+    const crv_depth_encoding encoding = format->encoding;
+    if (encoding < CRV_DEPTH_PLANAR || encoding > CRV_DEPTH_DISPARITY)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT, "depth: unknown encoding %d",
+                         (int)encoding);
+    if ((encoding == CRV_DEPTH_PLANAR || encoding == CRV_DEPTH_RADIAL)
+        && !(format->background > 0))
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "depth: background %g is not positive; use INFINITY for none",
+                         (double)format->background);
+    if (encoding != CRV_DEPTH_HARDWARE && encoding != CRV_DEPTH_REVERSED)
+        return CRV_OK;
+    const int orthographic = g->camera.projection == CRV_ORTHOGRAPHIC;
+    const int near_valid =
+        isfinite(format->z_near) && (orthographic || format->z_near > 0);
+    const int far_valid =
+        format->z_far > format->z_near && (isfinite(format->z_far) || !orthographic);
+    if (near_valid && far_valid)
+        return CRV_OK;
+    return crv__fail(
+        logger, CRV_ERROR_INVALID_ARGUMENT,
+        "depth: near %g and far %g; hardware depth needs 0 < near < far, far finite "
+        "for an orthographic camera",
+        (double)format->z_near, (double)format->z_far);
+}
+
+crv_status crv_gbuffer_set_depth(crv_gbuffer *g, int32_t layer, const crv_image *image,
+                                 const crv_depth_format *format)
+{
+    if (!g)
+        return CRV_ERROR_INVALID_ARGUMENT;
+    const crv_logger *logger = &g->context->logger;
+    if (!g->has_camera)
+        return crv__fail(logger, CRV_ERROR_NOT_READY,
+                         "depth: no camera yet; call crv_gbuffer_set_camera() first");
+    if (layer < 0 || layer >= g->desc.layers)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT, "depth: layer %d of %d",
+                         layer, g->desc.layers);
+    crv_status status =
+        crv__image_check(logger, "depth", image, g->desc.width, g->desc.height, 1, 0);
+    if (status)
+        return status;
+    depth_job job = {.gbuffer = g,
+                     .image = image,
+                     .layer = layer,
+                     .format = format ? *format : crv_depth_format_planar()};
+    status = check_format(g, &job.format);
+    if (status)
+        return status;
+    if (job.format.encoding == CRV_DEPTH_HARDWARE
+        || job.format.encoding == CRV_DEPTH_REVERSED)
+        hardware_coefficients(&job);
+    crv__run_parallel(g->context, (uint32_t)g->desc.height, convert_row, &job);
+    g->has_depth |= 1u << layer;
+    return CRV_OK;
+}

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+/* What the scalar specification of a method or filter sees. */
+#ifndef CRV_CORE_FRAME_H
+#define CRV_CORE_FRAME_H
+
+#include "core/image.h"
+#include "shared/params.h"
+
+#include "crevice/gbuffer.h"
+
+#include <math.h>
+
+typedef struct crv__frame {
+    const crv__params *params;
+    const crv__plane *depth;       /* params->layers planes; background INFINITY */
+    const crv__plane *normal;      /* 3 planes, view space, facing the camera */
+    const crv__noise_texel *noise; /* noise_size * noise_size */
+    const float *directions;       /* (cos, sin) of 2 pi k / directions */
+} crv__frame;
+
+typedef struct crv__vec3 {
+    float x, y, z;
+} crv__vec3;
+
+static inline crv__vec3 crv__sub(crv__vec3 a, crv__vec3 b)
+{
+    return (crv__vec3){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+static inline float crv__dot(crv__vec3 a, crv__vec3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/* The view-space point at the centre of pixel (x, y) with planar depth d. */
+static inline crv__vec3 crv__unproject(const crv__params *p, int32_t x, int32_t y,
+                                       float d)
+{
+    float scale = p->orthographic ? 1.0f : d;
+    return (crv__vec3){((float)x + 0.5f - p->cx) * p->inv_fx * scale,
+                       -((float)y + 0.5f - p->cy) * p->inv_fy * scale, -d};
+}
+
+static inline crv__vec3 crv__normal_at(const crv__frame *f, int32_t x, int32_t y)
+{
+    return (crv__vec3){*crv__plane_at(&f->normal[0], x, y),
+                       *crv__plane_at(&f->normal[1], x, y),
+                       *crv__plane_at(&f->normal[2], x, y)};
+}
+
+static inline const crv__noise_texel *crv__noise_at(const crv__frame *f, int32_t x,
+                                                    int32_t y)
+{
+    const crv__params *p = f->params;
+    int32_t column = (x + p->noise_x) % p->noise_size,
+            row = (y + p->noise_y) % p->noise_size;
+    return &f->noise[row * p->noise_size + column];
+}
+
+#endif

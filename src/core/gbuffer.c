@@ -1,0 +1,252 @@
+/* SPDX-License-Identifier: MIT */
+/* The G-buffer's life: sizes, memory, state, and what goes in and out as it is. */
+#include "core/gbuffer.h"
+
+#include "core/camera.h"
+
+#include <math.h>
+#include <string.h>
+
+void crv_gbuffer_desc_init(crv_gbuffer_desc *desc, size_t struct_size, int32_t width,
+                           int32_t height)
+{
+    if (!desc || struct_size != sizeof *desc)
+        return;
+    *desc = (crv_gbuffer_desc){
+        .struct_size = struct_size, .width = width, .height = height, .layers = 1};
+}
+
+crv_status crv__gbuffer_desc_check(const crv_logger *logger, const crv_gbuffer_desc *desc)
+{
+    if (!desc || desc->struct_size != sizeof *desc)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "gbuffer: desc is NULL or not initialised; begin with "
+                         "crv_gbuffer_desc_init()");
+    if (desc->width < 1 || desc->height < 1 || desc->width > CRV_MAX_SIZE
+        || desc->height > CRV_MAX_SIZE)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "gbuffer: %d x %d; width and height are from 1 to %d",
+                         desc->width, desc->height, CRV_MAX_SIZE);
+    if (desc->layers < 1 || desc->layers > CRV_MAX_LAYERS)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "gbuffer: %d layers; 1 to %d", desc->layers, CRV_MAX_LAYERS);
+    const int32_t guards[4] = {desc->guard_left, desc->guard_right, desc->guard_top,
+                               desc->guard_bottom};
+    for (int i = 0; i < 4; i++) {
+        if (guards[i] < 0 || guards[i] >= CRV_MAX_SIZE)
+            return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                             "gbuffer: a guard band of %d px; 0 or more", guards[i]);
+    }
+    if (guards[0] + guards[1] >= desc->width || guards[2] + guards[3] >= desc->height)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "gbuffer: the guard band leaves nothing of %d x %d", desc->width,
+                         desc->height);
+    return CRV_OK;
+}
+
+static int create_planes(crv_gbuffer *g)
+{
+    const crv_allocator *allocator = &g->context->allocator;
+    for (int i = 0; i < g->desc.layers; i++) {
+        if (crv__plane_create(&g->depth[i], allocator, 0, 0, g->desc.width,
+                              g->desc.height))
+            return -1;
+    }
+    for (int i = 0; i < 3; i++) {
+        if (crv__plane_create(&g->normal[i], allocator, 0, 0, g->desc.width,
+                              g->desc.height))
+            return -1;
+    }
+    return 0;
+}
+
+crv_status crv_gbuffer_create(crv_context *context, const crv_gbuffer_desc *desc,
+                              crv_gbuffer **out)
+{
+    if (!context)
+        return CRV_ERROR_INVALID_ARGUMENT;
+    if (!out)
+        return crv__fail(&context->logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "gbuffer: out is NULL");
+    crv_status status = crv__gbuffer_desc_check(&context->logger, desc);
+    if (status)
+        return status;
+    crv_gbuffer *g = crv__allocate(&context->allocator, 1, sizeof *g);
+    if (g) {
+        g->context = context;
+        g->desc = *desc;
+        if (create_planes(g) == 0) {
+            *out = g;
+            return CRV_OK;
+        }
+        crv_gbuffer_destroy(g);
+    }
+    return crv__fail(&context->logger, CRV_ERROR_OUT_OF_MEMORY,
+                     "gbuffer: no memory for %d x %d with %d layers", desc->width,
+                     desc->height, desc->layers);
+}
+
+void crv_gbuffer_destroy(crv_gbuffer *g)
+{
+    if (!g)
+        return;
+    const crv_allocator *allocator = &g->context->allocator;
+    for (int i = 0; i < CRV_MAX_LAYERS; i++)
+        crv__plane_destroy(&g->depth[i], allocator);
+    for (int i = 0; i < 3; i++)
+        crv__plane_destroy(&g->normal[i], allocator);
+    crv__release(allocator, g, 1, sizeof *g);
+}
+
+crv_status crv_gbuffer_set_camera(crv_gbuffer *g, const crv_camera *camera)
+{
+    if (!g)
+        return CRV_ERROR_INVALID_ARGUMENT;
+    crv_status status = crv__camera_check(&g->context->logger, camera);
+    if (status)
+        return status;
+    g->camera = *camera;
+    g->has_camera = 1;
+    g->has_depth = 0;
+    g->has_normals = g->normals_ready = 0;
+    return CRV_OK;
+}
+
+typedef struct normals_job {
+    crv_gbuffer *gbuffer;
+    const crv_image *image;
+    float rotation[9];
+} normals_job;
+
+static void take_normals_row(void *data, uint32_t row)
+{
+    const normals_job *job = data;
+    const int32_t y = (int32_t)row;
+    const float *m = job->rotation;
+    for (int32_t x = 0; x < job->gbuffer->desc.width; x++) {
+        const float nx = *crv_image_at(job->image, x, y, 0);
+        const float ny = *crv_image_at(job->image, x, y, 1);
+        const float nz = *crv_image_at(job->image, x, y, 2);
+        for (int i = 0; i < 3; i++)
+            *crv__plane_at(&job->gbuffer->normal[i], x, y) =
+                m[3 * i] * nx + m[3 * i + 1] * ny + m[3 * i + 2] * nz;
+    }
+}
+
+static crv_status need_camera(const crv_gbuffer *g)
+{
+    if (g->has_camera)
+        return CRV_OK;
+    return crv__fail(&g->context->logger, CRV_ERROR_NOT_READY,
+                     "gbuffer: no camera yet; call crv_gbuffer_set_camera() first");
+}
+
+crv_status crv_gbuffer_set_normals(crv_gbuffer *g, const crv_image *image,
+                                   crv_normal_space space)
+{
+    static const float IDENTITY[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    if (!g)
+        return CRV_ERROR_INVALID_ARGUMENT;
+    crv_status status = need_camera(g);
+    if (status)
+        return status;
+    if (image) {
+        if (space != CRV_NORMAL_VIEW && space != CRV_NORMAL_WORLD)
+            return crv__fail(&g->context->logger, CRV_ERROR_INVALID_ARGUMENT,
+                             "normals: space %d is neither view nor world", (int)space);
+        status = crv__image_check(&g->context->logger, "normals", image, g->desc.width,
+                                  g->desc.height, 3, 0);
+        if (status)
+            return status;
+        normals_job job = {.gbuffer = g, .image = image};
+        memcpy(job.rotation,
+               space == CRV_NORMAL_WORLD ? g->camera.world_to_view : IDENTITY,
+               sizeof job.rotation);
+        crv__run_parallel(g->context, (uint32_t)g->desc.height, take_normals_row, &job);
+    }
+    g->has_normals = image != NULL;
+    g->normals_ready = 0;
+    return CRV_OK;
+}
+
+void crv__gbuffer_params(const crv_gbuffer *g, crv__params *p)
+{
+    p->width = g->desc.width;
+    p->height = g->desc.height;
+    p->layers = g->desc.layers;
+    p->orthographic = g->camera.projection == CRV_ORTHOGRAPHIC;
+    p->fx = g->camera.fx_px;
+    p->fy = g->camera.fy_px;
+    p->cx = g->camera.cx_px;
+    p->cy = g->camera.cy_px;
+    p->inv_fx = 1 / p->fx;
+    p->inv_fy = 1 / p->fy;
+}
+
+static void finish_row(void *data, uint32_t row)
+{
+    crv_gbuffer *g = data;
+    crv__params params = {0};
+    crv__gbuffer_params(g, &params);
+    crv__normals_finish_row(g, &params, (int32_t)row);
+}
+
+crv_status crv__gbuffer_prepare(crv_gbuffer *g)
+{
+    crv_status status = need_camera(g);
+    if (status)
+        return status;
+    const uint32_t missing = ((1u << g->desc.layers) - 1) & ~g->has_depth;
+    if (missing)
+        return crv__fail(
+            &g->context->logger, CRV_ERROR_NOT_READY,
+            "gbuffer: depth of a layer is missing (layers to set, as bits: 0x%x); "
+            "call crv_gbuffer_set_depth() after the camera",
+            missing);
+    if (!g->normals_ready) {
+        crv__run_parallel(g->context, (uint32_t)g->desc.height, finish_row, g);
+        g->normals_ready = 1;
+    }
+    return CRV_OK;
+}
+
+crv_status crv_gbuffer_get_depth(crv_gbuffer *g, int32_t layer, const crv_image *image)
+{
+    if (!g)
+        return CRV_ERROR_INVALID_ARGUMENT;
+    const crv_logger *logger = &g->context->logger;
+    if (layer < 0 || layer >= g->desc.layers)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT, "depth: layer %d of %d",
+                         layer, g->desc.layers);
+    crv_status status =
+        crv__image_check(logger, "depth", image, g->desc.width, g->desc.height, 1, 1);
+    if (status == CRV_OK && !(g->has_depth >> layer & 1))
+        status = crv__fail(logger, CRV_ERROR_NOT_READY,
+                           "depth: layer %d has not been set", layer);
+    if (status)
+        return status;
+    for (int32_t y = 0; y < g->desc.height; y++) {
+        for (int32_t x = 0; x < g->desc.width; x++)
+            *crv_image_at(image, x, y, 0) = *crv__plane_at(&g->depth[layer], x, y);
+    }
+    return CRV_OK;
+}
+
+crv_status crv_gbuffer_get_normals(crv_gbuffer *g, const crv_image *image)
+{
+    if (!g)
+        return CRV_ERROR_INVALID_ARGUMENT;
+    crv_status status = crv__image_check(&g->context->logger, "normals", image,
+                                         g->desc.width, g->desc.height, 3, 1);
+    if (status == CRV_OK)
+        status = crv__gbuffer_prepare(g);
+    if (status)
+        return status;
+    for (int32_t y = 0; y < g->desc.height; y++) {
+        for (int32_t x = 0; x < g->desc.width; x++) {
+            for (int i = 0; i < 3; i++)
+                *crv_image_at(image, x, y, i) = *crv__plane_at(&g->normal[i], x, y);
+        }
+    }
+    return CRV_OK;
+}

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: MIT */
+#ifndef CRV_CORE_GBUFFER_H
+#define CRV_CORE_GBUFFER_H
+
+#include "core/context.h"
+#include "core/image.h"
+#include "crevice/gbuffer.h"
+#include "shared/params.h"
+
+struct crv_gbuffer {
+    crv_context *context;
+    crv_gbuffer_desc desc;
+    crv_camera camera;
+    int32_t has_camera;
+    uint32_t has_depth;    /* bit per layer */
+    int32_t has_normals;   /* normal[] holds what the host gave, turned to view space */
+    int32_t normals_ready; /* normal[] holds what estimators read */
+    crv__plane depth[CRV_MAX_LAYERS];
+    crv__plane normal[3];
+};
+
+/* INVALID_ARGUMENT with a line unless the sizes make sense. */
+crv_status crv__gbuffer_desc_check(const crv_logger *logger,
+                                   const crv_gbuffer_desc *desc);
+
+/* NOT_READY with a line where camera or depth are missing; else makes normals[] ready. */
+crv_status crv__gbuffer_prepare(crv_gbuffer *gbuffer);
+
+/* Fills the members of params that describe buffers and camera. */
+void crv__gbuffer_params(const crv_gbuffer *gbuffer, crv__params *params);
+
+/* Turns row y of normal[] into unit normals that face the camera, reconstructed from
+ * depth where there are none (normals.c). */
+void crv__normals_finish_row(crv_gbuffer *gbuffer, const crv__params *params, int32_t y);
+
+#endif

@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: MIT */
+#include "core/image.h"
+
+#include "base/log.h"
+
+#include <stdlib.h>
+
+crv_image crv_image_packed(float *data, int32_t width, int32_t height, int32_t channels)
+{
+    ptrdiff_t pixel = (ptrdiff_t)channels * (ptrdiff_t)sizeof(float);
+    return (crv_image){data,
+                       width,
+                       height,
+                       channels,
+                       (ptrdiff_t)width * pixel,
+                       pixel,
+                       (ptrdiff_t)sizeof(float)};
+}
+
+/* Whether no two components share memory, for the layouts that occur: each stride, taken
+ * from small to large, must step over all that the smaller ones span. */
+static int strides_are_disjoint(const crv_image *image)
+{
+    struct {
+        ptrdiff_t stride;
+        ptrdiff_t count;
+    } axes[3] = {{image->row_stride, image->height},
+                 {image->pixel_stride, image->width},
+                 {image->channel_stride, image->channels}};
+    ptrdiff_t span = (ptrdiff_t)sizeof(float);
+    for (int done = 0; done < 3; done++) {
+        int next = -1;
+        for (int i = 0; i < 3; i++) {
+            if (axes[i].count > 0
+                && (next < 0 || llabs(axes[i].stride) < llabs(axes[next].stride)))
+                next = i;
+        }
+        if (axes[next].count > 1) {
+            ptrdiff_t stride = (ptrdiff_t)llabs(axes[next].stride);
+            if (stride < span)
+                return 0;
+            span += stride * (axes[next].count - 1);
+        }
+        axes[next].count = 0;
+    }
+    return 1;
+}
+
+crv_status crv__image_check(const crv_logger *logger, const char *what,
+                            const crv_image *image, int32_t width, int32_t height,
+                            int32_t channels, int writes)
+{
+    if (!image || !image->data)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "%s: image or its data is NULL; pass a filled crv_image", what);
+    if (image->width != width || image->height != height)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "%s: image is %d x %d, expected %d x %d", what, image->width,
+                         image->height, width, height);
+    if (image->channels != channels)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "%s: image has %d channels, expected %d", what, image->channels,
+                         channels);
+    const ptrdiff_t unit = (ptrdiff_t)sizeof(float),
+                    limit = PTRDIFF_MAX / 4 / CRV_MAX_SIZE;
+    const ptrdiff_t strides[3] = {image->row_stride, image->pixel_stride,
+                                  image->channel_stride};
+    for (int i = 0; i < 3; i++) {
+        if (strides[i] % unit != 0 || strides[i] > limit || strides[i] < -limit)
+            return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                             "%s: a stride of %td bytes is not a multiple of 4 in range",
+                             what, strides[i]);
+    }
+    if ((uintptr_t)image->data % sizeof(float) != 0)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "%s: data is not aligned to 4 bytes", what);
+    if (writes && !strides_are_disjoint(image))
+        return crv__fail(
+            logger, CRV_ERROR_INVALID_ARGUMENT,
+            "%s: strides make pixels overlap; an output needs its own memory for "
+            "each pixel",
+            what);
+    return CRV_OK;
+}
+
+int crv__plane_create(crv__plane *plane, const crv_allocator *allocator, int32_t x0,
+                      int32_t y0, int32_t width, int32_t height)
+{
+    const ptrdiff_t unit = CRV__ALIGNMENT / (ptrdiff_t)sizeof(float);
+    ptrdiff_t pitch = (width + unit - 1) / unit * unit;
+    float *data = crv__allocate(allocator, (size_t)height, (size_t)pitch * sizeof(float));
+    if (!data)
+        return -1;
+    *plane = (crv__plane){data, pitch, x0, y0, width, height};
+    return 0;
+}
+
+void crv__plane_destroy(crv__plane *plane, const crv_allocator *allocator)
+{
+    crv__release(allocator, plane->data, (size_t)plane->height,
+                 (size_t)plane->pitch * sizeof(float));
+    *plane = (crv__plane){0};
+}

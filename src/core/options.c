@@ -1,0 +1,236 @@
+/* SPDX-License-Identifier: MIT */
+/* The option table: the one place that knows an option's default, range and meaning. */
+#include "core/options.h"
+
+#include "base/log.h"
+#include "core/registry.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char *const FALLOFFS[] = {"none",        "linear",  "sqrt", "cubic",
+                                       "exponential", "alchemy", NULL};
+static const char *const ATTENUATIONS[] = {"slab", "horizon", NULL};
+
+/* Who reads an option. */
+typedef enum reader { EVERY_METHOD, SOME_METHODS, SOME_FILTERS } reader;
+
+typedef struct row {
+    crv_option info;
+    size_t offset;
+    reader reader;
+} row;
+
+#define FLOAT(key, unit, standard, low, high, who, help)                                 \
+    {                                                                                    \
+        {#key, CRV_OPTION_FLOAT, unit, standard, low, high, NULL, help},                 \
+            offsetof(crv_options, key), who                                              \
+    }
+#define INT(key, unit, standard, low, high, who, help)                                   \
+    {                                                                                    \
+        {#key, CRV_OPTION_INT, unit, standard, low, high, NULL, help},                   \
+            offsetof(crv_options, key), who                                              \
+    }
+#define BOOL(key, standard, who, help)                                                   \
+    {                                                                                    \
+        {#key, CRV_OPTION_BOOL, "", standard, 0, 1, NULL, help},                         \
+            offsetof(crv_options, key), who                                              \
+    }
+#define CHOICE(key, standard, names, who, help)                                          \
+    {                                                                                    \
+        {#key,  CRV_OPTION_CHOICE,                                                       \
+         "",    standard,                                                                \
+         0,     sizeof names / sizeof names[0] - 2,                                      \
+         names, help},                                                                   \
+            offsetof(crv_options, key), who                                              \
+    }
+
+static const row TABLE[] = {
+    FLOAT(radius, "scene units", 1, 1e-9, 1e9, EVERY_METHOD,
+          "radius of influence: occluders farther away do not count"),
+    CHOICE(falloff, CRV_FALLOFF_LINEAR, FALLOFFS, SOME_METHODS,
+           "how the weight of an occluder falls with its distance"),
+    FLOAT(tau, "1/radius", 3, 0, 1e3, SOME_METHODS, "decay of the exponential falloff"),
+    FLOAT(u, "radius", 0.1, 1e-3, 1, SOME_METHODS,
+          "distance at which the alchemy falloff peaks"),
+    INT(directions, "", 8, 1, 256, SOME_METHODS, "Nd: directions around a pixel"),
+    INT(steps, "", 8, 1, 256, SOME_METHODS, "Ns: samples in each direction"),
+    FLOAT(bias_deg, "degrees", 2, 0, 89, SOME_METHODS,
+          "ignores occluders that rise less than this over the surface"),
+    CHOICE(attenuation, CRV_ATTENUATION_SLAB, ATTENUATIONS, SOME_METHODS,
+           "slab: each occluder weighs the elevations that it is first to block; "
+           "horizon: the "
+           "highest occluder weighs its whole slice"),
+    FLOAT(max_radius_px, "px", 0, 0, CRV_MAX_SIZE, SOME_METHODS,
+          "samples no farther than this from the pixel; 0: no limit"),
+    FLOAT(intensity, "", 1, 0, 100, EVERY_METHOD,
+          "strength s in max(0, 1 - s (1 - A))^contrast"),
+    FLOAT(contrast, "", 1, 1e-2, 100, EVERY_METHOD,
+          "exponent k in max(0, 1 - intensity (1 - A))^k"),
+    INT(noise_size, "px", 4, 1, 64, EVERY_METHOD,
+        "edge of the tile of rotations and jitters; box4 suits 4"),
+    INT(seed, "", 0, 0, 2147483647, EVERY_METHOD, "another noise tile"),
+    FLOAT(filter_depth, "radius", 0.05, 1e-4, 1e3, SOME_FILTERS,
+          "depth deviation at which a filter tap stops counting"),
+    BOOL(filter_slope, 1, SOME_FILTERS,
+         "measure that deviation from the surface's slope; off: from the centre's depth"),
+};
+
+enum { ROW_COUNT = sizeof TABLE / sizeof TABLE[0] };
+
+int32_t crv_option_count(void)
+{
+    return ROW_COUNT;
+}
+
+const crv_option *crv_option_at(int32_t index)
+{
+    return index >= 0 && index < ROW_COUNT ? &TABLE[index].info : NULL;
+}
+
+/* Equal but for dashes and underscores. */
+static int keys_match(const char *a, const char *b)
+{
+    for (; *a && *b; a++, b++) {
+        if ((*a == '-' ? '_' : *a) != (*b == '-' ? '_' : *b))
+            return 0;
+    }
+    return *a == *b;
+}
+
+const crv_option *crv_option_find(const char *key)
+{
+    for (int i = 0; key && i < ROW_COUNT; i++) {
+        if (keys_match(key, TABLE[i].info.key))
+            return &TABLE[i].info;
+    }
+    return NULL;
+}
+
+static const row *row_of(const crv_option *option)
+{
+    for (int i = 0; i < ROW_COUNT; i++) {
+        if (&TABLE[i].info == option)
+            return &TABLE[i];
+    }
+    return NULL;
+}
+
+static int lists(const char *const *keys, const char *key)
+{
+    for (; keys && *keys; keys++) {
+        if (strcmp(*keys, key) == 0)
+            return 1;
+    }
+    return 0;
+}
+
+int crv_option_applies(const crv_option *option, const crv_method *method,
+                       const crv_filter *filter)
+{
+    const row *r = row_of(option);
+    if (!r)
+        return 0;
+    if (r->reader == EVERY_METHOD)
+        return 1;
+    if (r->reader == SOME_METHODS)
+        return method && lists(method->options, option->key);
+    return filter && lists(filter->options, option->key);
+}
+
+double crv_options_get(const crv_options *options, const crv_option *option)
+{
+    const row *r = row_of(option);
+    if (!options || !r)
+        return NAN;
+    const char *member = (const char *)options + r->offset;
+    if (option->type == CRV_OPTION_FLOAT) {
+        float value;
+        memcpy(&value, member, sizeof value);
+        return (double)value;
+    }
+    int32_t value; /* enums are int-sized: see the assertion */
+    memcpy(&value, member, sizeof value);
+    return value;
+}
+
+_Static_assert(sizeof(crv_falloff) == 4 && sizeof(crv_attenuation) == 4,
+               "choices are read and written as int32_t");
+
+void crv__options_put(crv_options *options, const crv_option *option, double value)
+{
+    char *member = (char *)options + row_of(option)->offset;
+    if (option->type == CRV_OPTION_FLOAT) {
+        float number = (float)value;
+        memcpy(member, &number, sizeof number);
+    } else {
+        int32_t number = (int32_t)value;
+        memcpy(member, &number, sizeof number);
+    }
+}
+
+crv_status crv_options_init(crv_options *options, size_t struct_size, const char *method)
+{
+    const crv_method *chosen = crv_method_find(method ? method : "hbao");
+    if (!options || struct_size != sizeof *options || !chosen)
+        return CRV_ERROR_INVALID_ARGUMENT;
+    memset(options, 0, sizeof *options);
+    options->struct_size = struct_size;
+    options->method = chosen;
+    options->filter = crv_filter_find("bilateral13");
+    for (int i = 0; i < ROW_COUNT; i++)
+        crv__options_put(options, &TABLE[i].info, TABLE[i].info.default_value);
+    return CRV_OK;
+}
+
+crv_status crv__option_check(const crv_option *option, double value,
+                             const crv_logger *logger)
+{
+    /* The range is compared as floats where the value is one, so that its ends are
+     * inside. */
+    const int is_float = option->type == CRV_OPTION_FLOAT;
+    const double low = is_float ? (double)(float)option->min : option->min;
+    const double high = is_float ? (double)(float)option->max : option->max;
+    if (value >= low && value <= high)
+        return CRV_OK;
+    return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                     "%s: %g is out of range; it is from %g to %g%s%s", option->key,
+                     value, option->min, option->max, option->unit[0] ? " " : "",
+                     option->unit);
+}
+
+static int is_registered(const crv_options *options)
+{
+    int method = 0, filter = options->filter == NULL;
+    for (int32_t i = 0; i < crv_method_count(); i++)
+        method |= crv_method_at(i) == options->method;
+    for (int32_t i = 0; i < crv_filter_count(); i++)
+        filter |= crv_filter_at(i) == options->filter;
+    return method && filter;
+}
+
+crv_status crv_options_check(const crv_options *options, const crv_logger *logger)
+{
+    if (!options || options->struct_size != sizeof *options || !is_registered(options))
+        return crv__fail(
+            logger, CRV_ERROR_INVALID_ARGUMENT,
+            "options: NULL, not initialised, or with an unknown method or filter; "
+            "begin with crv_options_init()");
+    for (int i = 0; i < ROW_COUNT; i++) {
+        const crv_option *option = &TABLE[i].info;
+        const double value = crv_options_get(options, option);
+        crv_status status = crv__option_check(option, value, logger);
+        if (status)
+            return status;
+        const double standard = option->type == CRV_OPTION_FLOAT
+                                    ? (double)(float)option->default_value
+                                    : option->default_value;
+        if (value != standard
+            && !crv_option_applies(option, options->method, options->filter))
+            crv__log(logger, CRV_LOG_WARNING,
+                     "%s: not used by %s with filter %s; ignored", option->key,
+                     options->method->name,
+                     options->filter ? options->filter->name : "none");
+    }
+    return CRV_OK;
+}

@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: MIT */
+/* Plans: one method, one filter, one size; all memory taken ahead. */
+#include "core/backend.h"
+#include "core/gbuffer.h"
+#include "core/noise.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double PI = 3.14159265358979323846;
+
+/*
+ * The estimate covers the result and, where the guard band has room, the margin that the
+ * filter reads beyond it, so that neighbouring pieces of a picture fit together after
+ * filtering too.
+ */
+struct crv_plan {
+    crv_context *context;
+    const crv__backend *backend;
+    crv_options options;
+    crv_gbuffer_desc desc;
+    crv__params params;
+    crv__noise_texel *noise;
+    float *directions;
+    crv__plane estimate, spare;
+};
+
+static size_t noise_count(const crv_plan *plan)
+{
+    return (size_t)plan->options.noise_size * (size_t)plan->options.noise_size;
+}
+
+static int32_t wrapped(int64_t value, int32_t size)
+{
+    return (int32_t)((value % size + size) % size);
+}
+
+static void fill_params(crv_plan *plan)
+{
+    const crv_options *o = &plan->options;
+    crv__params *p = &plan->params;
+    p->radius = o->radius;
+    p->inv_radius = 1 / o->radius;
+    p->falloff = (int32_t)o->falloff;
+    p->tau = o->tau;
+    p->u = o->u;
+    p->max_radius_px = o->max_radius_px > 0 ? o->max_radius_px : INFINITY;
+    p->directions = o->directions;
+    p->steps = o->steps;
+    p->sin_bias = (float)sin((double)o->bias_deg * PI / 180);
+    p->cos_bias = (float)cos((double)o->bias_deg * PI / 180);
+    p->attenuation = (int32_t)o->attenuation;
+    p->noise_size = o->noise_size;
+    p->noise_x =
+        wrapped((int64_t)plan->desc.origin_x - plan->desc.guard_left, o->noise_size);
+    p->noise_y =
+        wrapped((int64_t)plan->desc.origin_y - plan->desc.guard_top, o->noise_size);
+    p->intensity = o->intensity;
+    p->contrast = o->contrast;
+    p->filter_depth = o->filter_depth * o->radius;
+    p->filter_slope = o->filter_slope;
+}
+
+/* Directions and noise; 0, or -1 where memory is out. */
+static int fill_patterns(crv_plan *plan)
+{
+    const crv_allocator *allocator = &plan->context->allocator;
+    const int32_t count = plan->options.directions;
+    plan->directions = crv__allocate(allocator, (size_t)count, 2 * sizeof(float));
+    plan->noise = crv__allocate(allocator, noise_count(plan), sizeof *plan->noise);
+    uint32_t *scratch = crv__allocate(allocator, noise_count(plan), sizeof *scratch);
+    const int done = plan->directions && plan->noise && scratch;
+    if (done) {
+        for (int32_t k = 0; k < count; k++) {
+            plan->directions[2 * k] = (float)cos(2 * PI * k / count);
+            plan->directions[2 * k + 1] = (float)sin(2 * PI * k / count);
+        }
+        crv__noise_fill(plan->noise, plan->options.noise_size, 2 * PI / count,
+                        plan->options.seed, scratch);
+    }
+    crv__release(allocator, scratch, noise_count(plan), sizeof *scratch);
+    return done ? 0 : -1;
+}
+
+static int32_t least(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
+static int create_planes(crv_plan *plan)
+{
+    const crv_allocator *allocator = &plan->context->allocator;
+    const crv_gbuffer_desc *d = &plan->desc;
+    const int32_t reach =
+        plan->options.filter ? crv__filter_of(plan->options.filter)->reach_px : 0;
+    const int32_t x0 = d->guard_left - least(d->guard_left, reach);
+    const int32_t y0 = d->guard_top - least(d->guard_top, reach);
+    const int32_t x1 = d->width - d->guard_right + least(d->guard_right, reach);
+    const int32_t y1 = d->height - d->guard_bottom + least(d->guard_bottom, reach);
+    if (crv__plane_create(&plan->estimate, allocator, x0, y0, x1 - x0, y1 - y0))
+        return -1;
+    if (!plan->options.filter)
+        return 0;
+    return crv__plane_create(&plan->spare, allocator, x0, y0, x1 - x0, y1 - y0);
+}
+
+crv_status crv_plan_create(crv_context *context, const crv_options *options,
+                           const crv_gbuffer_desc *desc, crv_plan **out)
+{
+    if (!context)
+        return CRV_ERROR_INVALID_ARGUMENT;
+    const crv_logger *logger = &context->logger;
+    if (!out)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT, "plan: out is NULL");
+    crv_status status = crv_options_check(options, logger);
+    if (status == CRV_OK)
+        status = crv__gbuffer_desc_check(logger, desc);
+    if (status)
+        return status;
+    crv_plan *plan = crv__allocate(&context->allocator, 1, sizeof *plan);
+    if (plan) {
+        plan->context = context;
+        plan->backend = &crv__cpu_backend;
+        plan->options = *options;
+        plan->desc = *desc;
+        fill_params(plan);
+        if (fill_patterns(plan) == 0 && create_planes(plan) == 0) {
+            *out = plan;
+            return CRV_OK;
+        }
+        crv_plan_destroy(plan);
+    }
+    return crv__fail(logger, CRV_ERROR_OUT_OF_MEMORY, "plan: no memory for %d x %d",
+                     desc->width, desc->height);
+}
+
+void crv_plan_destroy(crv_plan *plan)
+{
+    if (!plan)
+        return;
+    const crv_allocator *allocator = &plan->context->allocator;
+    crv__plane_destroy(&plan->estimate, allocator);
+    crv__plane_destroy(&plan->spare, allocator);
+    crv__release(allocator, plan->noise, noise_count(plan), sizeof *plan->noise);
+    crv__release(allocator, plan->directions, (size_t)plan->options.directions,
+                 2 * sizeof(float));
+    crv__release(allocator, plan, 1, sizeof *plan);
+}
+
+static int same_desc(const crv_gbuffer_desc *a, const crv_gbuffer_desc *b)
+{
+    return a->width == b->width && a->height == b->height && a->layers == b->layers
+           && a->guard_left == b->guard_left && a->guard_top == b->guard_top
+           && a->guard_right == b->guard_right && a->guard_bottom == b->guard_bottom
+           && a->origin_x == b->origin_x && a->origin_y == b->origin_y;
+}
+
+static crv_status check_image(const crv_plan *plan, const char *what,
+                              const crv_image *image, int writes)
+{
+    const crv_gbuffer_desc *d = &plan->desc;
+    return crv__image_check(&plan->context->logger, what, image,
+                            d->width - d->guard_left - d->guard_right,
+                            d->height - d->guard_top - d->guard_bottom, 1, writes);
+}
+
+/* Checks the arguments of a run and makes the frame. */
+static crv_status begin(crv_plan *plan, crv_gbuffer *g, const crv_image *result,
+                        crv__frame *frame)
+{
+    if (!plan || !g)
+        return CRV_ERROR_INVALID_ARGUMENT;
+    if (g->context != plan->context || !same_desc(&g->desc, &plan->desc))
+        return crv__fail(&plan->context->logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "plan: the G-buffer was made with another desc or context");
+    crv_status status = check_image(plan, "result", result, 1);
+    if (status == CRV_OK)
+        status = crv__gbuffer_prepare(g);
+    if (status)
+        return status;
+    crv__gbuffer_params(g, &plan->params);
+    *frame =
+        (crv__frame){&plan->params, g->depth, g->normal, plan->noise, plan->directions};
+    return CRV_OK;
+}
+
+/* Filters the estimate and copies the rectangle inside the guard band to the result. */
+static void finish(crv_plan *plan, const crv__work *work, const crv_image *result)
+{
+    const crv__plane *current = &plan->estimate, *next = &plan->spare;
+    if (plan->options.filter) {
+        const crv__filter *filter = crv__filter_of(plan->options.filter);
+        for (int32_t pass = 0; pass < filter->passes; pass++) {
+            plan->backend->filter(work, filter, pass, current, next);
+            const crv__plane *swap = current;
+            current = next;
+            next = swap;
+        }
+    }
+    for (int32_t y = 0; y < result->height; y++) {
+        const float *row =
+            crv__plane_at(current, plan->desc.guard_left, plan->desc.guard_top + y);
+        for (int32_t x = 0; x < result->width; x++)
+            *crv_image_at(result, x, y, 0) = row[x];
+    }
+}
+
+crv_status crv_plan_run(crv_plan *plan, crv_gbuffer *gbuffer, const crv_image *result)
+{
+    crv__frame frame;
+    crv_status status = begin(plan, gbuffer, result, &frame);
+    if (status)
+        return status;
+    const crv__work work = {plan->context, &frame};
+    plan->backend->estimate(&work, crv__method_of(plan->options.method), &plan->estimate);
+    finish(plan, &work, result);
+    return CRV_OK;
+}
+
+crv_status crv_plan_filter(crv_plan *plan, crv_gbuffer *gbuffer, const crv_image *input,
+                           const crv_image *result)
+{
+    crv__frame frame;
+    crv_status status = begin(plan, gbuffer, result, &frame);
+    if (status == CRV_OK)
+        status = check_image(plan, "input", input, 0);
+    if (status)
+        return status;
+    /* Outside the given image the estimate's margin holds nothing: NaN, which filters
+     * leave out. */
+    for (int32_t y = 0; y < plan->estimate.height; y++) {
+        for (int32_t x = 0; x < plan->estimate.width; x++)
+            plan->estimate.data[y * plan->estimate.pitch + x] = NAN;
+    }
+    for (int32_t y = 0; y < input->height; y++) {
+        float *row = crv__plane_at(&plan->estimate, plan->desc.guard_left,
+                                   plan->desc.guard_top + y);
+        for (int32_t x = 0; x < input->width; x++) {
+            const float a = *crv_image_at(input, x, y, 0);
+            row[x] = isfinite(a) ? a : 1;
+        }
+    }
+    const crv__work work = {plan->context, &frame};
+    finish(plan, &work, result);
+    return CRV_OK;
+}

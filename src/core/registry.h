@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: MIT */
+/* What a method and a filter are to the rest of the library. */
+#ifndef CRV_CORE_REGISTRY_H
+#define CRV_CORE_REGISTRY_H
+
+#include "core/frame.h"
+#include "crevice/options.h"
+
+typedef struct crv__method {
+    crv_method info;
+    /* The specification: raw accessibility of the pixel (x, y) of the buffers, which is
+     * not background; may leave [0, 1] by its sampling error. */
+    float (*accessibility)(const crv__frame *frame, int32_t x, int32_t y);
+} crv__method;
+
+typedef struct crv__filter {
+    crv_filter info;
+    int32_t passes;
+    int32_t reach_px; /* a pixel of the result depends on input at most so far away */
+    /* The specification: the pixel (x, y), which is not background, of a pass. input
+     * holds the estimate in the first pass and the output of the pass before in the
+     * others. */
+    float (*filter)(const crv__frame *frame, const crv__plane *input, int32_t pass,
+                    int32_t x, int32_t y);
+} crv__filter;
+
+/* info is the first member, so the public pointer is the internal one. */
+static inline const crv__method *crv__method_of(const crv_method *method)
+{
+    return (const crv__method *)(const void *)method;
+}
+
+static inline const crv__filter *crv__filter_of(const crv_filter *filter)
+{
+    return (const crv__filter *)(const void *)filter;
+}
+
+#endif

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Two passes of a one-dimensional cross-bilateral filter of 13 taps: Gaussian times
+ * proximity in camera-space depth. Morgan McGuire, Brian Osman, Michael Bukowski, Padraic
+ * Hennessy: The Alchemy Screen-Space Ambient Obscurance Algorithm, HPG 2011.
+ *
+ * The paper gives neither the Gaussian's width nor the proximity function: here sigma is
+ * half the reach, so that the last taps still count, and proximity falls linearly to 0 at
+ * filter_depth.
+ */
+#include "core/registry.h"
+#include "filters/tap.h"
+
+enum { REACH = 6 };
+
+static float filter(const crv__frame *f, const crv__plane *input, int32_t pass, int32_t x,
+                    int32_t y)
+{
+    /* exp(-k^2 / (2 sigma^2)), sigma = REACH / 2 */
+    static const float GAUSS[REACH + 1] = {1.0f,        0.94595947f, 0.80073740f,
+                                           0.60653066f, 0.41111229f, 0.24935221f,
+                                           0.13533528f};
+    const crv__centre centre = crv__centre_at(f, x, y);
+    const int32_t step_x = pass == 0, step_y = pass == 1;
+    float sum = 0, weights = 0;
+    for (int32_t k = -REACH; k <= REACH; k++) {
+        float value, deviation;
+        if (!crv__tap(f, input, &centre, k * step_x, k * step_y, &value, &deviation)
+            || deviation >= 1)
+            continue;
+        const float weight = GAUSS[k < 0 ? -k : k] * (1 - deviation);
+        sum += weight * value;
+        weights += weight;
+    }
+    return sum / weights; /* the centre weighs 1 */
+}
+
+static const char *const OPTIONS[] = {"filter_depth", "filter_slope", NULL};
+
+const crv__filter crv__filter_bilateral13 = {
+    .info = {.name = "bilateral13",
+             .title = "Two 1-D passes of 13 taps: Gaussian times depth proximity",
+             .paper = "McGuire, Osman, Bukowski, Hennessy 2011: The Alchemy Screen-Space "
+                      "Ambient Obscurance Algorithm",
+             .options = OPTIONS},
+    .passes = 2,
+    .reach_px = REACH,
+    .filter = filter};

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * A 4x4 box that leaves out taps whose depth differs by more than filter_depth. With the
+ * 4x4 noise tile every window holds each rotation once. Laszlo Szirmay-Kalos, Tamas
+ * Umenhoffer, Balazs Toth, Laszlo Szecsi, Mateu Sbert: Volumetric Ambient Occlusion for
+ * Real-Time Rendering and Games, IEEE CG&A 2010 (interleaved sampling).
+ */
+#include "core/registry.h"
+#include "filters/tap.h"
+
+enum { FIRST = -2, LAST = 1 };
+
+static float filter(const crv__frame *f, const crv__plane *input, int32_t pass, int32_t x,
+                    int32_t y)
+{
+    const crv__centre centre = crv__centre_at(f, x, y);
+    float sum = 0, count = 0;
+    (void)pass;
+    for (int32_t dy = FIRST; dy <= LAST; dy++) {
+        for (int32_t dx = FIRST; dx <= LAST; dx++) {
+            float value, deviation;
+            if (!crv__tap(f, input, &centre, dx, dy, &value, &deviation) || deviation > 1)
+                continue;
+            sum += value;
+            count += 1;
+        }
+    }
+    return sum / count; /* the centre is always in */
+}
+
+static const char *const OPTIONS[] = {"filter_depth", "filter_slope", NULL};
+
+const crv__filter crv__filter_box4 = {
+    .info =
+        {.name = "box4",
+         .title = "4x4 box over taps within the depth limit; suits the 4x4 noise tile",
+         .paper =
+             "Szirmay-Kalos, Umenhoffer, Toth, Szecsi, Sbert 2010: Volumetric Ambient "
+             "Occlusion for Real-Time Rendering and Games",
+         .options = OPTIONS},
+    .passes = 1,
+    .reach_px = 2,
+    .filter = filter};

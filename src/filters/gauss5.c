@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * A 5x5 Gaussian, each tap divided by its depth deviation from the centre.
+ * Rouslan Dimitrov, Louis Bavoil, Miguel Sainz: Horizon-Split Ambient Occlusion, 2008,
+ * section 4.1.3.
+ *
+ * The paper does not say how the centre, whose deviation is 0, is kept finite: here an
+ * eighth of filter_depth is added to every deviation, so that taps within it count about
+ * alike.
+ */
+#include "core/registry.h"
+#include "filters/tap.h"
+
+enum { REACH = 2 };
+
+static float filter(const crv__frame *f, const crv__plane *input, int32_t pass, int32_t x,
+                    int32_t y)
+{
+    static const float BINOMIAL[REACH + 1] = {6, 4, 1}; /* the 5-tap Gaussian, unscaled */
+    const crv__centre centre = crv__centre_at(f, x, y);
+    float sum = 0, weights = 0;
+    (void)pass;
+    for (int32_t dy = -REACH; dy <= REACH; dy++) {
+        for (int32_t dx = -REACH; dx <= REACH; dx++) {
+            float value, deviation;
+            if (!crv__tap(f, input, &centre, dx, dy, &value, &deviation))
+                continue;
+            const float weight = BINOMIAL[dx < 0 ? -dx : dx] * BINOMIAL[dy < 0 ? -dy : dy]
+                                 / (deviation + 0.125f);
+            sum += weight * value;
+            weights += weight;
+        }
+    }
+    return sum / weights; /* the centre weighs 36 * 8 */
+}
+
+static const char *const OPTIONS[] = {"filter_depth", "filter_slope", NULL};
+
+const crv__filter crv__filter_gauss5 = {
+    .info = {.name = "gauss5",
+             .title = "5x5 Gaussian, each tap divided by its depth deviation",
+             .paper = "Dimitrov, Bavoil, Sainz 2008: Horizon-Split Ambient Occlusion",
+             .options = OPTIONS},
+    .passes = 1,
+    .reach_px = REACH,
+    .filter = filter};

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * params.h: the numbers that an estimator or filter reads, the same for every pixel of a
+ * frame. Only 4-byte members, so that C and GLSL (std430) lay it out alike.
+ */
+#ifndef CRV_SHARED_PARAMS_H
+#define CRV_SHARED_PARAMS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct crv__params {
+    int32_t width, height; /* of the buffers, guard band included */
+    int32_t layers;
+    int32_t orthographic; /* 0 or 1 */
+
+    float fx, fy, cx, cy; /* as in camera.h */
+
+    float inv_fx, inv_fy;
+    float radius; /* scene units */
+    float inv_radius;
+
+    int32_t falloff; /* crv_falloff */
+    float tau, u;
+    float max_radius_px; /* INFINITY: no cap */
+
+    int32_t directions, steps;
+    float sin_bias, cos_bias;
+
+    int32_t attenuation; /* crv_attenuation */
+    int32_t noise_size;
+    int32_t noise_x, noise_y; /* tile coordinates of buffer pixel (0, 0) */
+
+    float intensity, contrast;
+    float filter_depth;   /* scene units */
+    int32_t filter_slope; /* 0 or 1 */
+} crv__params;
+
+_Static_assert(sizeof(crv__params) == 28 * 4, "no padding, a multiple of 16 bytes");
+_Static_assert(offsetof(crv__params, falloff) == 12 * 4, "layout shared with GLSL");
+_Static_assert(offsetof(crv__params, filter_slope) == 27 * 4, "layout shared with GLSL");
+
+/* One texel of the noise tile. */
+typedef struct crv__noise_texel {
+    float cos_alpha, sin_alpha; /* rotation, alpha in [0, 2 pi / directions) */
+    float beta;                 /* step jitter in (-1, 1) */
+    float unused;
+} crv__noise_texel;
+
+_Static_assert(sizeof(crv__noise_texel) == 16, "layout shared with GLSL");
+
+#endif

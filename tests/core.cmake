@@ -1,0 +1,13 @@
+# SPDX-License-Identifier: MIT
+# Tests of libcrevice itself.
+add_library(crevice_fixture STATIC fixture.c)
+target_link_libraries(crevice_fixture PRIVATE crevice_flags PUBLIC crevice::crevice PkgConfig::CMOCKA m)
+
+crevice_test(test_closed_forms SOURCES test_closed_forms.c LIBS crevice_fixture)
+crevice_test(test_conformance SOURCES test_conformance.c LIBS crevice_fixture)
+crevice_test(test_gbuffer SOURCES test_gbuffer.c LIBS crevice_fixture)
+crevice_test(test_options SOURCES test_options.c LIBS crevice_fixture)
+crevice_test(test_api SOURCES test_api.c LIBS crevice_fixture)
+crevice_test(test_camera SOURCES test_camera.c LIBS crevice_fixture)
+crevice_test(test_filters SOURCES test_filters.c LIBS crevice_fixture)
+crevice_test(test_noise SOURCES test_noise.c LIBS crevice_internal)

@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: MIT */
+/* The filters against sums done by hand, and what all of them must hold. */
+#include "fixture.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { SIZE = 33, COUNT = SIZE * SIZE, MIDDLE = SIZE / 2 * SIZE + SIZE / 2 };
+
+/* Filters an image over these depths; perspective unless flat. */
+static void apply(const char *filter, int32_t slope, const float *depth, const float *in,
+                  float *out)
+{
+    crv_context_desc context_desc;
+    crv_context_desc_init(&context_desc, sizeof context_desc);
+    context_desc.logger = fixture_strict_logger();
+    crv_gbuffer_desc desc;
+    crv_gbuffer_desc_init(&desc, sizeof desc, SIZE, SIZE);
+    crv_options options = fixture_options(NULL);
+    assert_int_equal(crv_options_set(&options, "filter", filter, NULL), CRV_OK);
+    options.radius = 2;
+    options.filter_depth = 0.25f; /* 0.5 scene units */
+    options.filter_slope = slope;
+    crv_camera camera = crv_camera_perspective(SIZE, SIZE, 1);
+    crv_image depths = crv_image_packed((float *)(uintptr_t)depth, SIZE, SIZE, 1);
+    crv_image input = crv_image_packed((float *)(uintptr_t)in, SIZE, SIZE, 1);
+    crv_image result = crv_image_packed(out, SIZE, SIZE, 1);
+    crv_context *context = NULL;
+    crv_gbuffer *gbuffer = NULL;
+    crv_plan *plan = NULL;
+    assert_int_equal(crv_context_create(&context_desc, &context), CRV_OK);
+    assert_int_equal(crv_gbuffer_create(context, &desc, &gbuffer), CRV_OK);
+    assert_int_equal(crv_plan_create(context, &options, &desc, &plan), CRV_OK);
+    assert_int_equal(crv_gbuffer_set_camera(gbuffer, &camera), CRV_OK);
+    assert_int_equal(crv_gbuffer_set_depth(gbuffer, 0, &depths, NULL), CRV_OK);
+    assert_int_equal(crv_plan_filter(plan, gbuffer, &input, &result), CRV_OK);
+    crv_plan_destroy(plan);
+    crv_gbuffer_destroy(gbuffer);
+    crv_context_destroy(context);
+}
+
+static void fill(float *image, float value)
+{
+    for (int32_t i = 0; i < COUNT; i++)
+        image[i] = value;
+}
+
+static void flat_depth_gives_the_plain_kernel(void **state)
+{
+    (void)state;
+    static float depth[COUNT], in[COUNT], out[COUNT];
+    fill(depth, 5);
+    fill(in, 1);
+    in[MIDDLE] = 0;
+    /* An impulse comes out as the kernel: weight at (dx, dy) over the sum of weights. */
+    apply("gauss5", 1, depth, in, out);
+    static const double B[5] = {1, 4, 6, 4, 1};
+    for (int32_t i = 0; i < COUNT; i++) {
+        const int32_t dx = i % SIZE - SIZE / 2, dy = i / SIZE - SIZE / 2;
+        const double w = abs(dx) > 2 || abs(dy) > 2 ? 0 : B[dx + 2] * B[dy + 2] / 256;
+        assert_true(fabs(1 - (double)out[i] - w) < 1e-6); /* float sums of 25 taps */
+    }
+    apply("box4", 1, depth, in, out);
+    for (int32_t i = 0; i < COUNT; i++) {
+        const int32_t dx = i % SIZE - SIZE / 2, dy = i / SIZE - SIZE / 2;
+        const int inside = dx >= -1 && dx <= 2 && dy >= -1 && dy <= 2;
+        assert_true(fabs(1 - (double)out[i] - inside / 16.0) < 1e-6);
+    }
+    apply("bilateral13", 1, depth, in, out);
+    double sum = 0;
+    for (int k = -6; k <= 6; k++)
+        sum += exp(-k * k / 18.0);
+    for (int32_t i = 0; i < COUNT; i++) {
+        const int32_t dx = i % SIZE - SIZE / 2, dy = i / SIZE - SIZE / 2;
+        const double w = abs(dx) > 6 || abs(dy) > 6
+                             ? 0
+                             : exp(-(dx * dx + dy * dy) / 18.0) / (sum * sum);
+        assert_true(fabs(1 - (double)out[i] - w) < 1e-6);
+    }
+}
+
+static void edges_are_kept(void **state)
+{
+    (void)state;
+    static float depth[COUNT], in[COUNT], out[COUNT];
+    for (int32_t f = 0; f < crv_filter_count(); f++) {
+        const char *name = crv_filter_at(f)->name;
+        for (int32_t i = 0; i < COUNT; i++) {
+            const int right = i % SIZE >= SIZE / 2;
+            depth[i] = right ? 50 : 5;
+            in[i] = right ? 1 : 0.25f;
+        }
+        apply(name, 1, depth, in, out);
+        /* gauss5 never leaves a tap out: over 45 units of depth, 90 times filter_depth,
+         * its weights are 0.125/90 of what they are on the same surface. */
+        const double leak = strcmp(name, "gauss5") == 0 ? 0.002 : 1e-6;
+        for (int32_t i = 0; i < COUNT; i++)
+            assert_true(fabs((double)out[i] - (double)in[i]) < leak);
+    }
+}
+
+static void background_is_no_tap(void **state)
+{
+    (void)state;
+    static float depth[COUNT], in[COUNT], out[COUNT];
+    for (int32_t f = 0; f < crv_filter_count(); f++) {
+        for (int32_t i = 0; i < COUNT; i++) {
+            const int sky = i % 3 == 0;
+            depth[i] = sky ? INFINITY : 5;
+            in[i] = sky ? 1 : 0.5f;
+        }
+        apply(crv_filter_at(f)->name, 0, depth, in, out);
+        for (int32_t i = 0; i < COUNT; i++)
+            assert_true(fabsf(out[i] - in[i]) < 1e-6f);
+    }
+}
+
+/* On a slope of 0.8 and 3 units a pixel every neighbour is beyond the depth limit of 0.5;
+ * only the slope tells that they belong to the same surface. */
+static void slopes_are_followed(void **state)
+{
+    (void)state;
+    static float depth[COUNT], in[COUNT], followed[COUNT], literal[COUNT];
+    for (int32_t i = 0; i < COUNT; i++) {
+        depth[i] = 200 + 0.8f * (float)(i % SIZE) - 3 * (float)(i / SIZE);
+        in[i] = (i + i / SIZE) % 2 ? 1.0f : 0.0f; /* a chequerboard: SIZE is odd */
+    }
+    for (int32_t f = 0; f < crv_filter_count(); f++) {
+        const char *name = crv_filter_at(f)->name;
+        apply(name, 1, depth, in, followed);
+        apply(name, 0, depth, in, literal);
+        /* Kernels weigh black and white alike to a sixteenth. */
+        assert_true(fabsf(followed[MIDDLE] - 0.5f) < 0.07f);
+        /* gauss5 weighs its neighbours little, the others not at all. */
+        const float rest = strcmp(name, "gauss5") == 0 ? 0.25f : 0;
+        assert_true(fabsf(literal[MIDDLE] - in[MIDDLE]) <= rest);
+    }
+}
+
+static void non_finite_values_count_as_open(void **state)
+{
+    (void)state;
+    static float depth[COUNT], in[COUNT], out[COUNT];
+    fill(depth, 5);
+    for (int32_t i = 0; i < COUNT; i++)
+        in[i] = i % 5 == 0 ? NAN : i % 5 == 1 ? INFINITY : 1;
+    for (int32_t f = 0; f < crv_filter_count(); f++) {
+        apply(crv_filter_at(f)->name, 1, depth, in, out);
+        for (int32_t i = 0; i < COUNT; i++)
+            assert_true(fabsf(out[i] - 1) < 1e-6f);
+    }
+    apply("none", 0, depth, in, out);
+    for (int32_t i = 0; i < COUNT; i++)
+        assert_true(out[i] == 1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(flat_depth_gives_the_plain_kernel),
+        cmocka_unit_test(edges_are_kept),
+        cmocka_unit_test(background_is_no_tap),
+        cmocka_unit_test(slopes_are_followed),
+        cmocka_unit_test(non_finite_values_count_as_open),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
