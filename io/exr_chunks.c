@@ -1,0 +1,243 @@
+/* SPDX-License-Identifier: MIT */
+/* exr_chunks.c: from the chunks of an EXR part to floats. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "exr.h"
+
+/* No lossless method of EXR packs tighter (deflate: 1032 to 1). More is a forged size. */
+enum { MAX_RATIO = 2048 };
+
+typedef struct part_layout {
+    bool tiled;
+    int32_t width, height;
+    int32_t columns, rows; /* of chunks */
+    int32_t chunk_width, chunk_height;
+    int32_t min_y;
+} part_layout;
+
+static int damaged(const io__exr *exr)
+{
+    return io__exr_fail(exr, "is damaged or cut off");
+}
+
+static int find_layout(const io__exr *exr, int part, part_layout *layout)
+{
+    exr_attr_box2i_t window;
+    exr_storage_t storage;
+    int32_t lines = 0;
+    uint32_t tile_width = 0, tile_height = 0;
+    exr_tile_level_mode_t levels;
+    exr_tile_round_mode_t rounding;
+    if (exr_get_data_window(exr->context, part, &window) != EXR_ERR_SUCCESS
+        || exr_get_storage(exr->context, part, &storage) != EXR_ERR_SUCCESS)
+        return damaged(exr);
+    const int32_t width = window.max.x - window.min.x + 1;
+    const int32_t height = window.max.y - window.min.y + 1;
+    layout->width = width;
+    layout->height = height;
+    layout->tiled = storage == EXR_STORAGE_TILED;
+    layout->min_y = window.min.y;
+    if (layout->tiled) {
+        if (exr_get_tile_descriptor(exr->context, part, &tile_width, &tile_height,
+                                    &levels, &rounding)
+                != EXR_ERR_SUCCESS
+            || tile_width < 1 || tile_height < 1 || tile_width > INT32_MAX / 2
+            || tile_height > INT32_MAX / 2)
+            return damaged(exr);
+        layout->chunk_width = (int32_t)tile_width;
+        layout->chunk_height = (int32_t)tile_height;
+    } else {
+        if (exr_get_scanlines_per_chunk(exr->context, part, &lines) != EXR_ERR_SUCCESS
+            || lines < 1)
+            return damaged(exr);
+        layout->chunk_width = width;
+        layout->chunk_height = lines;
+    }
+    layout->columns = (width - 1) / layout->chunk_width + 1;
+    layout->rows = (height - 1) / layout->chunk_height + 1;
+    return 0;
+}
+
+static int chunk_info(const io__exr *exr, int part, const part_layout *layout,
+                      int32_t column, int32_t row, exr_chunk_info_t *info)
+{
+    exr_result_t result;
+    if (layout->tiled)
+        result = exr_read_tile_chunk_info(exr->context, part, column, row, 0, 0, info);
+    else
+        result = exr_read_scanline_chunk_info(
+            exr->context, part, layout->min_y + row * layout->chunk_height, info);
+    return result == EXR_ERR_SUCCESS ? 0 : damaged(exr);
+}
+
+/* OpenEXR itself would fill what an uncompressed file lacks with zeros. */
+int io__exr_check_part(io__exr *exr, int part)
+{
+    part_layout layout;
+    const uint64_t size = (uint64_t)exr->file->size;
+    exr_compression_t compression = EXR_COMPRESSION_NONE;
+    uint64_t packed = 0, unpacked = 0;
+    if (find_layout(exr, part, &layout))
+        return -1;
+    exr_get_compression(exr->context, part, &compression);
+    const uint64_t chunks = (uint64_t)layout.columns * (uint64_t)layout.rows;
+    if (chunks > size / sizeof(uint64_t)) {
+        snprintf(exr->detail, sizeof exr->detail, "it is shorter than its table");
+        return damaged(exr);
+    }
+    for (int32_t row = 0; row < layout.rows; row++) {
+        for (int32_t column = 0; column < layout.columns; column++) {
+            exr_chunk_info_t info;
+            if (chunk_info(exr, part, &layout, column, row, &info))
+                return -1;
+            if (info.data_offset > size || info.packed_size > size - info.data_offset) {
+                snprintf(exr->detail, sizeof exr->detail, "it ends in the middle");
+                return damaged(exr);
+            }
+            packed += info.packed_size;
+            unpacked += info.unpacked_size;
+        }
+    }
+    const bool lossy =
+        compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB;
+    if (!lossy && unpacked / MAX_RATIO > packed) {
+        snprintf(exr->detail, sizeof exr->detail, "it is too short for its size");
+        return damaged(exr);
+    }
+    return 0;
+}
+
+static uint32_t load_bytes(const unsigned char *p, size_t count)
+{
+    uint32_t bits = 0;
+    for (size_t i = 0; i < count; i++)
+        bits |= (uint32_t)p[i] << (8 * i);
+    return bits;
+}
+
+static float float_of_half(uint32_t half)
+{
+    const uint32_t sign = (half & 0x8000u) << 16, exponent = half >> 10 & 31u;
+    const uint32_t fraction = half & 0x3ffu;
+    uint32_t bits = sign | (exponent + 112u) << 23 | fraction << 13;
+    float value;
+    if (exponent == 31) /* infinity, NaN */
+        bits = sign | 0x7f800000u | fraction << 13;
+    if (exponent == 0) { /* zero, denormal */
+        value = (float)fraction * 0x1p-24f;
+        return sign ? -value : value;
+    }
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+static void unpack_line(const unsigned char *source, exr_pixel_type_t type, size_t width,
+                        float *out)
+{
+    for (size_t i = 0; i < width; i++) {
+        if (type == EXR_PIXEL_HALF) {
+            out[i] = float_of_half(load_bytes(source + 2 * i, 2));
+            continue;
+        }
+        const uint32_t bits = load_bytes(source + 4 * i, 4);
+        if (type == EXR_PIXEL_UINT)
+            out[i] = (float)bits;
+        else
+            memcpy(&out[i], &bits, sizeof bits);
+    }
+}
+
+/* Where the pixels of the chunk at hand go; the user data of the decoder. */
+typedef struct destination {
+    float *const *targets; /* of the whole part; NULL for channels nobody wants */
+    size_t row_length;
+    int32_t x, y;  /* the chunk's first pixel in the picture */
+    int32_t min_y; /* of the data window */
+} destination;
+
+/*
+ * Takes the wanted channels from an unpacked chunk. Instead of the library's own
+ * routines, of which those for halves write to channels that nobody wants (seen in
+ * OpenEXR 3.1.5).
+ */
+static exr_result_t unpack(exr_decode_pipeline_t *decode)
+{
+    const destination *to = decode->decoding_user_data;
+    const bool packed = !decode->unpacked_buffer; /* so it is where nothing was packed */
+    const unsigned char *source =
+        packed ? decode->packed_buffer : decode->unpacked_buffer;
+    uint64_t left = packed ? decode->chunk.packed_size : decode->chunk.unpacked_size;
+    for (int32_t line = to->y; line < to->y + decode->chunk.height; line++)
+        for (int16_t c = 0; c < decode->channel_count; c++) {
+            const exr_coding_channel_info_t *channel = &decode->channels[c];
+            const size_t width = (size_t)channel->width;
+            const uint64_t bytes = (uint64_t)width * (uint64_t)channel->bytes_per_element;
+            if (channel->y_samples > 1 && (to->min_y + line) % channel->y_samples != 0)
+                continue;
+            if (bytes > left)
+                return EXR_ERR_CORRUPT_CHUNK;
+            if (to->targets[c])
+                unpack_line(source, (exr_pixel_type_t)channel->data_type, width,
+                            to->targets[c] + (size_t)line * to->row_length
+                                + (size_t)to->x);
+            source += bytes;
+            left -= bytes;
+        }
+    return EXR_ERR_SUCCESS;
+}
+
+static int fail_decode(const io__exr *exr, exr_result_t code)
+{
+    if (code == EXR_ERR_FEATURE_NOT_IMPLEMENTED)
+        return io__fail(exr->file->log, exr->file->path,
+                        "is compressed in a way that this OpenEXR library's C interface "
+                        "cannot read (DWAA and DWAB need a newer one, 3.1.13 or "
+                        "later); write it with ZIP or PIZ compression");
+    if (code == EXR_ERR_OUT_OF_MEMORY)
+        return io__fail(exr->file->log, exr->file->path,
+                        "no memory to unpack it; close other programs");
+    return damaged(exr);
+}
+
+static exr_result_t read_chunk(io__exr *exr, int part, const part_layout *layout,
+                               const exr_chunk_info_t *info, destination *to,
+                               exr_decode_pipeline_t *decode)
+{
+    if (info->width < 0 || info->width > layout->width - to->x || info->height < 0
+        || info->height > layout->height - to->y)
+        return EXR_ERR_CORRUPT_CHUNK;
+    exr_result_t code;
+    if (decode->channels) {
+        code = exr_decoding_update(exr->context, part, info, decode);
+    } else {
+        code = exr_decoding_initialize(exr->context, part, info, decode);
+        if (!code)
+            code = exr_decoding_choose_default_routines(exr->context, part, decode);
+        decode->unpack_and_convert_fn = unpack;
+    }
+    decode->decoding_user_data = to;
+    return code ? code : exr_decoding_run(exr->context, part, decode);
+}
+
+int io__exr_read_part(io__exr *exr, int part, float *const *targets)
+{
+    exr_decode_pipeline_t decode = EXR_DECODE_PIPELINE_INITIALIZER;
+    part_layout layout;
+    exr_result_t code = EXR_ERR_SUCCESS;
+    int result = find_layout(exr, part, &layout);
+    for (int32_t row = 0; !code && !result && row < layout.rows; row++)
+        for (int32_t column = 0; !code && !result && column < layout.columns; column++) {
+            exr_chunk_info_t info;
+            destination to = {.targets = targets,
+                              .row_length = (size_t)layout.width,
+                              .x = column * layout.chunk_width,
+                              .y = row * layout.chunk_height,
+                              .min_y = layout.min_y};
+            result = chunk_info(exr, part, &layout, column, row, &info);
+            if (!result)
+                code = read_chunk(exr, part, &layout, &info, &to, &decode);
+        }
+    exr_decoding_destroy(exr->context, &decode);
+    return code ? fail_decode(exr, code) : result;
+}

@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: MIT */
+/* exr_write.c: one part of scanlines, ZIP, half or float. */
+#include <errno.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "exr.h"
+#include "pass_camera.h"
+
+typedef struct writer {
+    io__output *output;
+    const io_image *image;
+    exr_context_t context;
+    exr_pixel_type_t type;
+    int part;
+    int io_error; /* errno of a failed write */
+    char detail[200];
+} writer;
+
+static void keep_detail(exr_const_context_t context, exr_result_t code, const char *text)
+{
+    void *user = NULL;
+    (void)code;
+    if (!context || exr_get_user_data(context, &user) != EXR_ERR_SUCCESS || !user)
+        return;
+    writer *w = user;
+    snprintf(w->detail, sizeof w->detail, "%s", text ? text : "");
+}
+
+static int64_t write_at(exr_const_context_t context, void *user, const void *buffer,
+                        uint64_t size, uint64_t offset, exr_stream_error_func_ptr_t fail)
+{
+    writer *w = user;
+    uint64_t done = 0;
+    while (done < size) {
+        const ssize_t n = pwrite(fileno(w->output->stream), (const char *)buffer + done,
+                                 size - done, (off_t)(offset + done));
+        if (n <= 0) {
+            w->io_error = n < 0 ? errno : ENOSPC;
+            fail(context, EXR_ERR_WRITE_IO, "the disk did not take it");
+            return -1;
+        }
+        done += (uint64_t)n;
+    }
+    return (int64_t)done;
+}
+
+static exr_result_t set_windows(const writer *w)
+{
+    const io_image *image = w->image;
+    crv_camera camera;
+    exr_attr_v2f_t centre = {.x = 0.0f, .y = 0.0f};
+    float width = 1.0f;
+    const exr_attr_box2i_t display = {
+        .max = {.x = image->display_width - 1, .y = image->display_height - 1}};
+    const exr_attr_box2i_t data = {.min = {.x = image->data_x, .y = image->data_y},
+                                   .max = {.x = image->data_x + image->width - 1,
+                                           .y = image->data_y + image->height - 1}};
+    if (!io__camera_from_ndc(&image->camera, image->display_width, image->display_height,
+                             &camera)) {
+        width = (float)image->display_width / camera.fx_px;
+        centre.x = (0.5f * (float)image->display_width - camera.cx_px) / camera.fx_px;
+        centre.y = (camera.cy_px - 0.5f * (float)image->display_height) / camera.fy_px;
+    }
+    return exr_initialize_required_attr(
+        w->context, w->part, &display, &data,
+        image->pixel_aspect > 0.0f ? image->pixel_aspect : 1.0f, &centre, width,
+        EXR_LINEORDER_INCREASING_Y, EXR_COMPRESSION_ZIP);
+}
+
+static exr_result_t set_matrix(const writer *w, const char *name, const float m[16])
+{
+    exr_attr_m44f_t matrix;
+    memcpy(matrix.m, m, sizeof matrix.m);
+    return exr_attr_set_m44f(w->context, w->part, name, &matrix);
+}
+
+static exr_result_t write_header(writer *w)
+{
+    const io_image *image = w->image;
+    const io_camera_metadata *camera = &image->camera;
+    exr_result_t code = exr_add_part(w->context, "main", EXR_STORAGE_SCANLINE, &w->part);
+    if (!code)
+        code = set_windows(w);
+    for (int32_t i = 0; !code && i < image->channel_count; i++) {
+        const char *name = image->channels[i].name;
+        if (strlen(name) > 31)
+            exr_set_longname_support(w->context, 1);
+        code = exr_add_channel(w->context, w->part, name, w->type,
+                               EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+    }
+    if (!code && camera->has_world_to_camera)
+        code = set_matrix(w, "worldToCamera", camera->world_to_camera);
+    if (!code && camera->has_world_to_ndc)
+        code = set_matrix(w, "worldToNDC", camera->world_to_ndc);
+    return code ? code : exr_write_header(w->context);
+}
+
+static void aim(const writer *w, exr_encode_pipeline_t *encode, int32_t y)
+{
+    for (int16_t i = 0; i < encode->channel_count; i++) {
+        exr_coding_channel_info_t *from = &encode->channels[i];
+        const io_channel *channel = io_image_find(w->image, from->channel_name);
+        from->encode_from_ptr =
+            (const uint8_t *)(channel->data + (size_t)y * (size_t)w->image->width);
+        from->user_bytes_per_element = sizeof(float);
+        from->user_data_type = EXR_PIXEL_FLOAT;
+        from->user_pixel_stride = sizeof(float);
+        from->user_line_stride = w->image->width * (int32_t)sizeof(float);
+    }
+}
+
+static exr_result_t write_pixels(const writer *w)
+{
+    exr_encode_pipeline_t encode = EXR_ENCODE_PIPELINE_INITIALIZER;
+    int32_t lines = 1;
+    exr_result_t code = exr_get_scanlines_per_chunk(w->context, w->part, &lines);
+    for (int32_t y = 0; !code && y < w->image->height; y += lines) {
+        exr_chunk_info_t info;
+        code = exr_write_scanline_chunk_info(w->context, w->part, w->image->data_y + y,
+                                             &info);
+        if (code)
+            break;
+        code = y == 0 ? exr_encoding_initialize(w->context, w->part, &info, &encode)
+                      : exr_encoding_update(w->context, w->part, &info, &encode);
+        if (code)
+            break;
+        aim(w, &encode, y);
+        if (y == 0)
+            code = exr_encoding_choose_default_routines(w->context, w->part, &encode);
+        if (!code)
+            code = exr_encoding_run(w->context, w->part, &encode);
+    }
+    exr_encoding_destroy(w->context, &encode);
+    return code;
+}
+
+static int check_names(const io__output *output, const io_image *image)
+{
+    for (int32_t i = 0; i < image->channel_count; i++)
+        if (!image->channels[i].name[0]
+            || io_image_find(image, image->channels[i].name) != &image->channels[i])
+            return io__fail(output->log, output->path,
+                            "the channel name \"%s\" is empty or occurs twice; change it",
+                            image->channels[i].name);
+    if (image->data_x > INT32_MAX / 2 || image->data_x < INT32_MIN / 2
+        || image->data_y > INT32_MAX / 2 || image->data_y < INT32_MIN / 2)
+        return io__fail(output->log, output->path,
+                        "its data window lies too far from its display window; crop it");
+    return 0;
+}
+
+int io__exr_write(io__output *output, const io_image *image,
+                  const io_write_options *options)
+{
+    writer w = {.output = output,
+                .image = image,
+                .type = options->half ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT};
+    exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    if (check_names(output, image))
+        return -1;
+    initializer.error_handler_fn = keep_detail;
+    initializer.user_data = &w;
+    initializer.write_fn = write_at;
+    exr_result_t code =
+        exr_start_write(&w.context, output->path, EXR_WRITE_FILE_DIRECTLY, &initializer);
+    if (!code) {
+        code = write_header(&w);
+        if (!code)
+            code = write_pixels(&w);
+        /* Writes the table of chunks, so that it can fail too. */
+        const exr_result_t finished = exr_finish(&w.context);
+        code = code ? code : finished;
+    }
+    if (!code && !w.io_error)
+        return 0;
+    errno = w.io_error;
+    if (w.io_error)
+        return io__output_fail(output);
+    return io__fail(output->log, output->path, "OpenEXR cannot write it (%s); try .pfm",
+                    w.detail[0] ? w.detail : exr_get_default_error_message(code));
+}

@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * internal.h: what the files of this room share: messages, files being read and written,
+ * and the row that each format fills in the table of format.c.
+ */
+#ifndef CREVICE_IO_INTERNAL_H
+#define CREVICE_IO_INTERNAL_H
+
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "io.h"
+
+#if defined(__GNUC__)
+#define IO__PRINTF(f, a) __attribute__((format(printf, f, a)))
+#else
+#define IO__PRINTF(f, a)
+#endif
+
+/* One line "path: message" to the logger. io__fail() returns -1. */
+int io__fail(const crv_logger *log, const char *path, const char *format, ...)
+    IO__PRINTF(3, 4);
+void io__warn(const crv_logger *log, const char *path, const char *format, ...)
+    IO__PRINTF(3, 4);
+void io__info(const crv_logger *log, const char *path, const char *format, ...)
+    IO__PRINTF(3, 4);
+
+/* Fails with the list of the channels that `image` has and the nearest of them. */
+int io__fail_channel(const crv_logger *log, const char *path, const char *wanted,
+                     const io_image *image);
+
+/* Writes "A, B, C" into out, cut short with "... (N in all)" where it does not fit. */
+void io__list_channels(const io_image *image, char *out, size_t size);
+
+/* Checks 1 <= width, height <= CRV_MAX_SIZE. 64 bits, so that no sum overflowed. */
+int io__check_size(const crv_logger *log, const char *path, int64_t width,
+                   int64_t height);
+
+/* A regular file, open for reading. */
+typedef struct io__file {
+    const char *path; /* as the caller wrote it, for messages */
+    FILE *stream;
+    int64_t size;
+    const crv_logger *log;
+} io__file;
+
+/* A temporary file in the target's folder, open for writing. */
+typedef struct io__output {
+    const char *path; /* as the caller wrote it, for messages */
+    char *target;     /* links followed; owned */
+    char *temporary;  /* owned */
+    FILE *stream;
+    const crv_logger *log;
+} io__output;
+
+/* Opens the temporary file. After success, one of commit or discard must follow. */
+int io__output_open(io__output *output, const char *path, const crv_logger *log);
+/* Brings the data to disk and puts the file in place of the target. */
+int io__output_commit(io__output *output);
+void io__output_discard(io__output *output);
+/* Logs the failed write with errno's reason; returns -1. */
+int io__output_fail(const io__output *output);
+/* Whether io__output_open() can work, without making anything. */
+int io__output_check(const char *path, const crv_logger *log);
+
+/* A row of the format table. The functions log their own errors and return 0 or -1. */
+typedef struct io__format {
+    const char *name;
+    const char *extension;
+    /* Whether a file that begins with these bytes is of this format. */
+    bool (*recognises)(const unsigned char *head, size_t size);
+    int (*probe)(const io__file *file, io_image *out);
+    /* names as in io_read(). */
+    int (*read)(const io__file *file, const char *const *names, int32_t count,
+                io_image *out);
+    int (*write)(io__output *output, const io_image *image,
+                 const io_write_options *options);
+} io__format;
+
+extern const io__format io__format_exr, io__format_png, io__format_pfm;
+
+/* Reduces `all`, which it takes over, to the named channels; for formats that cannot read
+ * single channels. */
+int io__select_channels(const io__file *file, io_image *all, const char *const *names,
+                        int32_t count, io_image *out);
+
+/* The channels of a grey or colour picture: "Y", "R", "G", "B" and "A". */
+int io__image_init_colour(io_image *image, int32_t width, int32_t height,
+                          int32_t channels, const io__file *file);
+
+/* The same channels without pixels, for probing. */
+int io__probe_colour(const io__file *file, int32_t width, int32_t height,
+                     int32_t channels, io_image *out);
+
+/* Which channels make up a picture of one or three components: indices, or -1 after an
+ * error line. Returns their count. */
+int io__colour_channels(const io_image *image, int32_t index[3], const char *path,
+                        const char *format, const crv_logger *log);
+
+#endif

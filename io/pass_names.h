@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: MIT */
+/* pass_names.h: which channels of a file are depth and normals. */
+#ifndef CREVICE_IO_PASS_NAMES_H
+#define CREVICE_IO_PASS_NAMES_H
+
+#include "passes.h"
+
+typedef struct io__pass_names {
+    int32_t layers;                    /* depth channels, 1 to CRV_MAX_LAYERS */
+    const char *depth[CRV_MAX_LAYERS]; /* point into the probed image */
+    const char *normal[3];             /* x, y, z; NULL where there are none */
+    char normal_base[IO_NAME_SIZE];    /* name without the component, for messages */
+} io__pass_names;
+
+/* Chooses among the channels of a probed image, as requested or by the tables of names,
+ * and logs the choice. */
+int io__choose_passes(const char *path, const io_image *probed,
+                      const io_passes_request *request, io__pass_names *out,
+                      const crv_logger *log);
+
+#endif

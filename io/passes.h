@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * passes.h: from the passes that renderers write to what a G-buffer takes. Finds depth
+ * and normal channels by the names that renderers use, the camera from metadata or from
+ * the caller, overscan as guard band, and the space that the normals are in.
+ */
+#ifndef CREVICE_IO_PASSES_H
+#define CREVICE_IO_PASSES_H
+
+#include "io.h"
+
+typedef enum io_normal_space {
+    IO_NORMALS_FIND = 0, /* from the camera's metadata, or by fitting a rotation to the
+                            normals that depth implies */
+    IO_NORMALS_VIEW = 1,
+    IO_NORMALS_WORLD = 2 /* needs camera metadata, or the fit */
+} io_normal_space;
+
+/* What the caller knows. Zeroed (with depth_format = crv_depth_format_planar()): find
+ * all. */
+typedef struct io_passes_request {
+    const char *depth;  /* name of the depth channel; NULL: find it */
+    const char *normal; /* name of the normals without the component ("N", "View.Normal"),
+                           "none" to ignore normals; NULL: find them */
+    crv_depth_format
+        depth_format; /* background INFINITY: 1e10 is used for planar and radial */
+    float vfov_rad;   /* > 0: perspective with this vertical field of view of the display
+                         window; wins over metadata */
+    float
+        view_height; /* > 0: orthographic, height of the display window in scene units */
+    io_normal_space normal_space;
+} io_passes_request;
+
+typedef struct io_frame {
+    crv_gbuffer_desc desc; /* guard band = overscan beyond the display window */
+    crv_camera camera;
+    crv_depth_format depth_format;
+    bool has_normals;
+    crv_normal_space normal_space;
+    io_image image; /* owns the pixels that the views below show */
+    crv_image depth[CRV_MAX_LAYERS];
+    crv_image normals;
+} io_frame;
+
+/*
+ * Loads a frame. Depth is found as Z, *.Z, *.Depth.Z, *.Depth.V, depth, ... (first match
+ * in the order of the table in passes.c), further layers as layer2.Z to layer4.Z, normals
+ * as N, Normal, *.Normal and the like with X Y Z or R G B. A PNG or PFM with one channel
+ * is depth. Without metadata, vfov_rad or view_height: an error that says how to give it.
+ * What was found and decided is logged as CRV_LOG_INFO lines. Returns 0, or -1 after an
+ * error line.
+ */
+int io_frame_load(const char *path, const io_passes_request *request, io_frame *out,
+                  const crv_logger *log);
+
+/* Frees what the frame owns and zeroes it. */
+void io_frame_free(io_frame *frame);
+
+/* Makes (when *gbuffer is NULL) or refills a G-buffer from the frame; *gbuffer must have
+ * been made with an equal desc. */
+crv_status io_frame_to_gbuffer(const io_frame *frame, struct crv_context *context,
+                               crv_gbuffer **gbuffer);
+
+#endif

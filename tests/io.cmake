@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: MIT
+# Tests of io/: files and passes.
+find_package(OpenEXR 3.1 REQUIRED)
+find_package(PNG REQUIRED)
+add_library(crevice_io_support STATIC test_io_support.c)
+target_compile_definitions(crevice_io_support PUBLIC _XOPEN_SOURCE=700)
+target_link_libraries(crevice_io_support
+    PRIVATE crevice_flags
+    PUBLIC crevice_io OpenEXR::OpenEXRCore PNG::PNG PkgConfig::CMOCKA m)
+
+crevice_test(test_io_exr SOURCES test_io_exr.c LIBS crevice_io_support)
+crevice_test(test_io_formats SOURCES test_io_formats.c LIBS crevice_io_support)
+crevice_test(test_io_bad SOURCES test_io_bad.c LIBS crevice_io_support)
+crevice_test(test_io_normal_fit SOURCES test_io_normal_fit.c LIBS crevice_io_support)
+crevice_test(test_passes SOURCES test_passes.c LIBS crevice_io_support)
