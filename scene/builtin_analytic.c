@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Small scenes whose depth and occlusion are known in closed form.
+ */
+#include "builtin.h"
+
+static scene_view perspective(vec3 eye, vec3 target, double vfov_deg)
+{
+    scene_view view = {.projection = CRV_PERSPECTIVE, .up = {0.0f, 1.0f, 0.0f}};
+    v3_store(eye, view.eye);
+    v3_store(target, view.target);
+    view.vfov_rad = (float)(vfov_deg * SCENE_PI / 180.0);
+    view.view_height =
+        (float)(2.0 * v3_length(v3_sub(eye, target)) * tan(0.5 * (double)view.vfov_rad));
+    return view;
+}
+
+/* Floor y = 0 and wall x = 0, perpendicular. */
+void builtin_corner(mesh *m, scene_view *view)
+{
+    place world = place_at(0, 0, 0);
+    shape_quad(m, &world, v3(0, 0, 8), v3(8, 0, 8), v3(8, 0, -8), v3(0, 0, -8));
+    shape_quad(m, &world, v3(0, 0, 8), v3(0, 0, -8), v3(0, 6, -8), v3(0, 6, 8));
+    *view = perspective(v3(5, 3.5, 1), v3(0.8, 0.4, 0), 45);
+}
+
+/* Floor y = 0, seen at a slant. */
+void builtin_plane(mesh *m, scene_view *view)
+{
+    place world = place_at(0, 0, 0);
+    shape_quad(m, &world, v3(-20, 0, 20), v3(20, 0, 20), v3(20, 0, -20), v3(-20, 0, -20));
+    *view = perspective(v3(0, 3, 6), v3(0, 0, 0), 45);
+}
+
+/* A sphere of radius 1 that stands on the floor y = 0 at the origin. */
+void builtin_sphere(mesh *m, scene_view *view)
+{
+    place world = place_at(0, 0, 0);
+    shape_quad(m, &world, v3(-20, 0, 20), v3(20, 0, 20), v3(20, 0, -20), v3(-20, 0, -20));
+    shape_sphere(m, &world, v3(0, 1, 0), 1.0, 512);
+    *view = perspective(v3(0, 2.2, 5.5), v3(0, 0.85, 0), 40);
+}
+
+/*
+ * A 90-degree V groove along Z with its edge at the origin, opening upwards: floor and
+ * wall at 45 degrees to an orthographic camera that looks down the bisector. The floor is
+ * to the right in the picture.
+ */
+void builtin_groove(mesh *m, scene_view *view)
+{
+    place world = place_at(0, 0, 0);
+    shape_quad(m, &world, v3(0, 0, 16), v3(8, 8, 16), v3(8, 8, -16), v3(0, 0, -16));
+    shape_quad(m, &world, v3(-8, 8, 16), v3(0, 0, 16), v3(0, 0, -16), v3(-8, 8, -16));
+    *view = perspective(v3(0, 20, 0), v3(0, 0, 0), 20);
+    view->projection = CRV_ORTHOGRAPHIC;
+    view->view_height = 6.0f;
+    view->up[1] = 0.0f;
+    view->up[2] = -1.0f;
+}

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+#include "check_file.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "internal.h"
+
+/* The length that a binary glTF states, or 0 for any other file. */
+static uint64_t stated_glb_length(const unsigned char header[12])
+{
+    if (memcmp(header, "glTF", 4) != 0)
+        return 0;
+    return (uint64_t)header[8] | (uint64_t)header[9] << 8 | (uint64_t)header[10] << 16
+           | (uint64_t)header[11] << 24;
+}
+
+static bool refuse_to_open(const char *path, const crv_logger *log)
+{
+    scene_log(log, CRV_LOG_ERROR, path, "cannot be opened (%s); check the path",
+              strerror(errno));
+    return false;
+}
+
+bool check_mesh_file(const char *path, const crv_logger *log)
+{
+    unsigned char header[12] = {0};
+    struct stat info;
+    size_t got;
+    FILE *file;
+    if (stat(path, &info) != 0)
+        return refuse_to_open(path, log);
+    if (S_ISDIR(info.st_mode)) {
+        scene_log(log, CRV_LOG_ERROR, path, "is a folder; name the mesh file in it");
+        return false;
+    }
+    if (!S_ISREG(info.st_mode)) {
+        scene_log(log, CRV_LOG_ERROR, path, "is not a file on disk; save the mesh first");
+        return false;
+    }
+    file = fopen(path, "rb");
+    if (!file)
+        return refuse_to_open(path, log);
+    got = fread(header, 1, sizeof header, file);
+    fclose(file);
+    if (got == 0) {
+        scene_log(log, CRV_LOG_ERROR, path, "is empty; export the model again");
+        return false;
+    }
+    if (stated_glb_length(header) > (uint64_t)info.st_size) {
+        scene_log(log, CRV_LOG_ERROR, path,
+                  "is truncated (%lld bytes of %llu); copy or export it again",
+                  (long long)info.st_size, (unsigned long long)stated_glb_length(header));
+        return false;
+    }
+    return true;
+}

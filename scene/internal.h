@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * internal.h: what the files of this room share: the scene itself, how it is made, and
+ * messages.
+ */
+#ifndef CREVICE_SCENE_INTERNAL_H
+#define CREVICE_SCENE_INTERNAL_H
+
+#include "embree.h"
+#include "mesh.h"
+#include "scene.h"
+
+struct scene {
+    mesh mesh;
+    float lower[3], upper[3];
+    RTCDevice device;
+    RTCScene rtc;
+    bool has_view; /* a view that it was made for, at this field of view and aspect */
+    scene_view view;
+    float view_aspect;
+};
+
+/* Takes the mesh (also on failure) and prepares it for ray casting. */
+int scene_from_mesh(mesh *m, const char *name, scene **out, const crv_logger *log);
+
+/* Where the camera is and how it is turned: rows of the rotation from world to view. */
+typedef struct scene_axes {
+    vec3 eye, right, up, back;
+} scene_axes;
+
+/* False where the view's numbers make no camera. */
+bool scene_axes_of_view(const scene_view *view, scene_axes *out);
+
+/* Logs "NAME: text" as one line: control characters of foreign text become spaces. */
+void scene_log(const crv_logger *log, crv_log_level level, const char *name,
+               const char *format, ...)
+#ifdef __GNUC__
+    __attribute__((format(printf, 4, 5)))
+#endif
+    ;
+
+/* The number of threads for a loop: 0 leaves the choice to OpenMP. */
+int scene_thread_count(int32_t requested);
+
+#endif

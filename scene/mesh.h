@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * mesh.h: triangles that are being collected. Out of memory is remembered, so that code
+ * which adds shapes need not check every call; scene_from_mesh() reports it.
+ */
+#ifndef CREVICE_SCENE_MESH_H
+#define CREVICE_SCENE_MESH_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "vec.h"
+
+/* Coordinates beyond this are dropped as not finite: squares and products of three of
+ * them must fit a float inside the ray caster. */
+#define MESH_MAX_COORDINATE 1e12
+
+typedef struct mesh {
+    float *positions; /* 3 a vertex, and one float more: Embree loads 16 bytes */
+    float *normals;   /* 3 a vertex, unit length */
+    size_t vertex_count, vertex_capacity;
+    uint32_t *indices;   /* 3 a triangle, counter-clockwise seen from the front */
+    uint32_t *materials; /* 1 a triangle, into colours */
+    size_t triangle_count, triangle_capacity;
+    float *colours; /* 3 a material: linear albedo */
+    size_t colour_count, colour_capacity;
+    uint32_t material;        /* of the triangles to come */
+    size_t dropped_triangles; /* degenerate or not finite */
+    bool failed;              /* out of memory */
+} mesh;
+
+void mesh_free(mesh *m);
+
+/* Makes room for so many more; only saves time and memory. */
+void mesh_reserve(mesh *m, size_t vertices, size_t triangles);
+
+/* Further triangles get this linear albedo, clamped to [0, 1]. */
+void mesh_set_colour(mesh *m, double r, double g, double b);
+
+/* Returns the vertex's index. */
+uint32_t mesh_add_vertex(mesh *m, vec3 position, vec3 normal);
+
+/* Drops degenerate and non-finite triangles. Vertex normals that are not usable become
+ * those of the face. */
+void mesh_add_triangle(mesh *m, uint32_t a, uint32_t b, uint32_t c);
+
+/* Whether the point has finite coordinates within MESH_MAX_COORDINATE. */
+bool mesh_usable_position(vec3 p);
+
+/* The cross product of two edges; zero where the triangle is degenerate: its height is
+ * below the rounding of its coordinates. */
+vec3 mesh_face_normal(vec3 a, vec3 b, vec3 c);
+
+static inline vec3 mesh_position(const mesh *m, uint32_t vertex)
+{
+    return v3_from(m->positions + 3 * (size_t)vertex);
+}
+
+static inline vec3 mesh_normal(const mesh *m, uint32_t vertex)
+{
+    return v3_from(m->normals + 3 * (size_t)vertex);
+}
+
+#endif
