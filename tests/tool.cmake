@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: MIT
+# The command-line tool: its parts that compute, then whole runs of it.
+set(tool_dir ${PROJECT_SOURCE_DIR}/tools/crevice)
+
+crevice_test(test_tool_metrics SOURCES test_tool_metrics.c ${tool_dir}/metrics.c)
+crevice_test(test_tool_args
+    SOURCES test_tool_args.c ${tool_dir}/args.c ${tool_dir}/values.c ${tool_dir}/report.c
+            ${tool_dir}/frames.c)
+foreach(test test_tool_metrics test_tool_args)
+    target_include_directories(${test} PRIVATE ${tool_dir})
+endforeach()
+
+# Each script gets the tool and a folder of its own to write in.
+function(tool_test name)
+    add_test(NAME ${name} COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/${name}.sh
+        $<TARGET_FILE:crevice_tool> ${CMAKE_CURRENT_BINARY_DIR}/${name})
+    set_tests_properties(${name} PROPERTIES
+        TIMEOUT ${CREVICE_TEST_TIMEOUT} SKIP_RETURN_CODE 77)
+endfunction()
+
+tool_test(tool_help)
+tool_test(tool_render)
+tool_test(tool_ao)
+tool_test(tool_compare)
+tool_test(tool_errors)
+tool_test(tool_shared)
+set_tests_properties(tool_shared PROPERTIES TIMEOUT 600)

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: MIT
+# Frames to ambient occlusion.
+. "$(dirname "$0")/tool_lib.sh"
+
+size="--size 240x135"
+
+# A G-buffer on disk holds all that render needs: camera, guard band, layers, normals.
+for extra in "" "--layers 2 --layer-kind back" "--normals-from face --guard-px 0"; do
+    # shellcheck disable=SC2086
+    good render builtin:courtyard $size $extra -o direct.exr --radius 0.4
+    # shellcheck disable=SC2086
+    good gbuffer builtin:courtyard $size $extra -o buffer.exr
+    good ao buffer.exr -o ao.exr --radius 0.4
+    good compare --json direct.exr ao.exr
+    # Normals turn to world space and back and the camera passes through a float matrix;
+    # only at a silhouette can that decide which texel a sample falls on.
+    at_most "$(number mae)" 0.0002 "roundtrip ($extra): mean error"
+    at_most "$(number rmse)" 0.002 "roundtrip ($extra): RMSE"
+    [ "$(number pixels)" -eq 32400 ] || fail "the result is not the inner rectangle"
+done
+good gbuffer builtin:groove $size -o groove.exr
+good ao groove.exr -o groove_ao.exr --radius 0.4
+good render builtin:groove $size -o groove_direct.exr --radius 0.4
+good compare --json groove_direct.exr groove_ao.exr
+at_most "$(number rmse)" 0.002 "orthographic roundtrip: RMSE"
+
+# Normals on disk are in world space: a floor's point up, wherever it is seen from.
+good gbuffer builtin:plane $size --eye 3,2,-5 --target 0.5,0,0 -o floor.exr
+good compare --json floor.exr floor.exr --channel N.Y
+at_least "$(number mean_a)" 0.99999 "mean N.Y of a floor"
+
+# Without normals, with the camera by hand.
+good gbuffer builtin:sphere $size -o plain.exr --vfov 40 --guard-px 0
+good ao plain.exr -o depth_only.exr --normal none --vfov 40 --radius 0.3
+good ao plain.exr -o with_normals.exr --radius 0.3
+good compare --json depth_only.exr with_normals.exr
+at_most "$(number mae)" 0.02 "reconstructed normals: mean error"
+
+# The radius that is chosen suits the picture, whatever the units.
+good ao plain.exr -o chosen.exr
+grep -Eq '^radius: --radius [0-9.e-]+, 5 %' stderr.txt || fail "the chosen radius is not told"
+
+# Frames: two of a range, an empty one first, which decides no radius.
+pfm shot.0001.pfm 2 2 inf nan 0 -1
+pfm shot.0003.pfm 2 2 1 1 1 1
+pfm shot.0005.pfm 2 2 2 2 2 2
+good ao "shot.####.pfm" --frames 1-6x2 --vfov 90 -o "ao.%03d.exr"
+for frame in 001 003 005; do
+    [ -s ao.$frame.exr ] || fail "frame $frame is missing"
+done
+[ ! -e ao.002.exr ] || fail "frame 2 was not asked for"
+# 2 px high at 90 degrees: 2 * 1 units are seen at depth 1, a twentieth of them is 0.1.
+grep -q '^radius: --radius 0.1, ' stderr.txt || fail "radius of the first frame"
+[ "$(grep -c '^radius: ' stderr.txt)" -eq 1 ] || fail "one radius for all frames"
+
+# A missing frame ends the run; what was written stays.
+code=0
+"$tool" ao "shot.####.pfm" --frames 1-9x4 --vfov 90 -o "gap.####.png" 2>stderr.txt || code=$?
+[ $code -eq 1 ] || fail "exit code $code for a missing frame"
+grep -q '^crevice: shot.0009.pfm: ' stderr.txt || fail "the missing frame is not named"
+[ -s gap.0001.png ] && [ -s gap.0005.png ] || fail "frames before the missing one"
+[ ! -e gap.0009.png ] || fail "a picture of a missing frame"
+
+# All background is all white: nothing but 255 in an 8-bit grey picture.
+good ao shot.0001.pfm --vfov 60 -o white.pfm
+tail -c 16 white.pfm >white.raw
+floats 1 1 1 1 >expected.raw
+cmp -s white.raw expected.raw || fail "an empty frame is not white"
+
+# Depth buffers: 0.5 between near 1 and far inf is 2 units away, in both directions.
+pfm half.pfm 3 1 0 1 0
+good ao half.pfm --vfov 60 --depth-encoding hardware --near 1 --far 10 -o d1.exr
+good ao half.pfm --vfov 60 --depth-encoding reversed --near 1 --far inf -o d2.exr
+good ao half.pfm --ortho 3 --depth-encoding disparity -o d3.exr
+good ao half.pfm --vfov 60 --depth-encoding radial --background 5 -o d4.exr

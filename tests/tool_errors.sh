@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: MIT
+# Bad input: one clear line, exit code 1 or 2, no output file.
+. "$(dirname "$0")/tool_lib.sh"
+
+m=builtin:sphere
+small="--size 32x18"
+good gbuffer $m $small -o frame.exr
+good render $m $small -o picture.png
+mkdir folder
+: >empty.exr
+: >empty.png
+: >empty.glb
+head -c 700 frame.exr >cut.exr
+head -c 60 picture.png >cut.png
+echo "this is text" >text.exr
+cp text.exr text.png
+cp text.exr text.glb
+printf 'glTF\002\000\000\000\377\377\000\000cut short' >cut.glb
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' >points.obj
+
+# shellcheck disable=SC2086 # $small is two words
+render() {
+    expected=$1 phrase=$2
+    shift 2
+    bad "$expected" "$phrase" render "$@" $small -o out.png
+}
+render 1 'missing.glb: ' missing.glb
+render 1 'folder: ' folder
+render 1 'empty.glb: ' empty.glb
+render 1 'cut.glb: ' cut.glb
+render 1 'text.glb: ' text.glb
+render 1 'points.obj: ' points.obj # it has no face
+render 2 'builtin:spheer: .*builtin:sphere' builtin:spheer
+render 2 'MODEL is missing'
+render 2 'radius: 0 ' $m --radius 0
+render 2 'radius: -1 ' $m --radius -1
+render 2 'radius: .*nan' $m --radius nan
+render 2 'radius: 1e+30 ' $m --radius 1e30
+render 2 "radius: '12abc'" $m --radius 12abc
+render 2 "method: .*did you mean 'hbao'" $m --method hbaoo
+render 2 "filter: .*did you mean 'gauss5'" $m --filter gaus5
+render 2 "falloff: .*did you mean 'linear'" $m --falloff liner
+render 2 'did you mean --radius?' $m --radus 1
+render 2 'did you mean --max-radius-px?' $m --max-radius 9
+render 2 'no such option' $m --frobnicate 9
+render 2 '--shade: .*did you mean lit' $m --shade litt
+render 2 '--vfov: "0" ' $m --vfov 0
+render 2 '--vfov: "180" ' $m --vfov 180
+render 2 '--ortho: contradicts' $m --vfov 30 --ortho 5
+render 2 '--eye: ' $m --eye 1,2
+render 2 '--eye: is the same point' $m --eye 1,2,3 --target 1,2,3
+render 2 '--up: lies along' $m --eye 0,0,5 --target 0,0,0 --up 0,0,1
+render 2 '--up: has no length' $m --up 0,0,0
+render 2 '--layers: "5"' $m --layers 5
+render 2 '--guard-px: ' $m --guard-px 20000
+render 2 '--bits: "12"' $m --bits 12
+render 2 'its value is missing' $m --radius
+render 2 'one argument too many' $m $m
+render 2 'directions: ' $m --directions 2.5
+
+bad 2 '--size: "0x0"' render $m --size 0x0 -o out.png
+bad 2 '--size: "100000x100000"' render $m --size 100000x100000 -o out.png
+bad 2 '-o OUT is missing' render $m
+bad 2 'is missing' render $m -o --quiet
+bad 1 'out.jpg: ' render $m -o out.jpg
+bad 1 'nowhere/out.png: ' render $m -o nowhere/out.png
+bad 1 'folder' render $m -o folder
+bad 2 'two pictures' render $m -o out.png --lit out.png
+bad 2 'cannot hold a G-buffer' gbuffer $m -o out.png
+cp points.obj model.png
+bad 2 'is the input' render model.png -o model.png
+cmp -s points.obj model.png || fail "the input was touched"
+
+# shellcheck disable=SC2086
+ao() {
+    expected=$1 phrase=$2
+    shift 2
+    bad "$expected" "$phrase" ao "$@" -o out.exr
+}
+ao 1 'missing.exr: ' missing.exr --vfov 60
+ao 1 'folder: ' folder --vfov 60
+ao 1 'empty.exr: ' empty.exr --vfov 60
+ao 1 'empty.png: ' empty.png --vfov 60
+ao 1 'cut.exr: ' cut.exr --vfov 60
+ao 1 'cut.png: ' cut.png --vfov 60
+ao 1 'text.exr: ' text.exr --vfov 60
+ao 1 'text.png: ' text.png --vfov 60
+ao 1 'frame.exr: .*N.X' frame.exr --depth Depth # lists the channels there are
+ao 1 'frame.exr: ' frame.exr --normal Nromal
+ao 1 'vfov' picture.png # a picture knows no camera
+bad 2 'is the input' ao frame.exr -o frame.exr
+ao 2 'add --near and' frame.exr --depth-encoding hardware
+ao 2 '--far: ' frame.exr --depth-encoding reversed --near 2 --far 1
+ao 2 '--near: ' frame.exr --depth-encoding reversed --near 0 --far 1
+ao 2 '--near: is for' frame.exr --near 1
+ao 2 '--background: "-1"' frame.exr --background -1
+ao 2 '--background: is for' frame.exr --background 9 --depth-encoding disparity
+ao 2 'did you mean radial' frame.exr --depth-encoding radia
+ao 2 'add --frames' 'shot.####.exr' --vfov 60
+ao 2 '--frames: is not a range' 'shot.####.exr' --frames 9-1 --vfov 60
+ao 2 '-o: needs one place' 'shot.####.exr' --frames 1-9 --vfov 60
+ao 2 'IN: needs one place' shot.exr --frames 1-9 --vfov 60
+ao 2 'IN: standard input' - --vfov 60
+ao 2 'radius: 0 ' frame.exr --radius 0
+bad 1 'nowhere/out.exr: ' ao frame.exr -o nowhere/out.exr
+bad 2 'did you mean --json?' compare frame.exr frame.exr --jsno
+
+# A name with a line break does not make two lines of one.
+bad 1 'missing?' ao "missing
+crevice: forged.exr" -o out.exr --vfov 60
+
+# Valid, if odd: background only, NaN and infinite depths, normals that are none.
+pfm odd.pfm 2 2 nan inf 1 -inf
+good ao odd.pfm --vfov 60 -o odd.exr

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: MIT
+# What the tool says of itself.
+. "$(dirname "$0")/tool_lib.sh"
+
+good --version
+grep -Eq '^crevice [0-9]+\.[0-9]+\.[0-9]+$' stdout.txt || fail "--version"
+good --help
+for command in render ao gbuffer compare methods; do
+    grep -q "^  $command " stdout.txt || fail "$command is not in the overview"
+done
+for command in render ao gbuffer compare methods; do
+    good help $command
+    mv stdout.txt help.txt
+    good $command --help
+    cmp -s stdout.txt help.txt || fail "help $command differs from $command --help"
+    grep -q "^usage: crevice $command" help.txt || fail "no usage: $command"
+    grep -q '^Examples:' help.txt || fail "no examples: $command"
+    awk 'length > 90 && !/^  crevice/ { exit 1 }' help.txt || fail "line too long: $command"
+    good --help
+done
+
+# Every option of the table is a flag of both commands that estimate, and is in their help.
+good methods --json
+flags=$(sed -n 's/.*"flag":[[:space:]]*"\(--[a-z0-9-]*\)".*/\1/p' stdout.txt | sort -u)
+[ "$(echo "$flags" | wc -l)" -ge 10 ] || fail "few flags in methods --json: $flags"
+for command in render ao; do
+    good help $command
+    for flag in $flags --method --filter; do
+        grep -q "^  $flag " stdout.txt || fail "$flag is not in the help of $command"
+    done
+done
+if command -v python3 >/dev/null; then
+    good methods --json
+    python3 -c 'import json, sys
+listing = json.load(sys.stdin)
+names = [m["name"] for m in listing["methods"]]
+assert "hbao" in names, names
+assert {"gauss5", "bilateral13", "box4"} <= {f["name"] for f in listing["filters"]}
+for entry in listing["methods"] + listing["filters"]:
+    assert entry["paper"] and entry["title"]
+    for option in entry["options"]:
+        if "min" in option:
+            assert option["min"] <= option["default"] <= option["max"], option
+        if "choices" in option:
+            assert option["default"] in option["choices"], option
+' <stdout.txt || fail "methods --json"
+fi
+good methods
+grep -q '^hbao: ' stdout.txt || fail "methods does not list hbao"
+good methods hbao
+grep -q -- '--directions' stdout.txt || fail "methods hbao lacks --directions"
+bad 2 'did you mean hbao' methods hbaoo
+
+code=0
+"$tool" >stdout.txt 2>stderr.txt || code=$?
+[ $code -eq 2 ] || fail "exit code $code without arguments"
+[ ! -s stdout.txt ] || fail "usage is not on stderr"
+grep -q '^usage: crevice' stderr.txt || fail "no usage without arguments"
+bad 2 'did you mean render' rendr model.glb
+bad 2 'no such command' frobnicate
+bad 2 'no such command' help frobnicate

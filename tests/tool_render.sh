@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: MIT
+# Models to pictures.
+. "$(dirname "$0")/tool_lib.sh"
+
+small="--size 160x90"
+
+# One run, three pictures, which differ.
+good render builtin:courtyard $small -o ao.png --lit lit.png --unlit plain.png
+for file in ao.png lit.png plain.png; do
+    [ "$(head -c 4 $file | od -An -c | tr -d ' ')" = '211PNG' ] || fail "$file is no PNG"
+done
+cmp -s lit.png plain.png && fail "ambient occlusion does not show in the lit picture"
+grep -q 'courtyard: [0-9]* triangles' stderr.txt || fail "no line about the model"
+grep -q '^hbao 8x8, radius .*, bilateral13: ' stderr.txt || fail "no line about the method"
+grep -q '^wrote ao.png$' stderr.txt || fail "no line about the file"
+
+# --shade writes the same pictures as the other outputs do.
+good render builtin:courtyard $small -o lit2.png --shade lit
+cmp -s lit.png lit2.png || fail "--shade lit differs from --lit"
+good render builtin:courtyard $small -o plain2.png --shade lit-no-ao
+cmp -s plain.png plain2.png || fail "--shade lit-no-ao differs from --unlit"
+
+# Quiet is quiet; the number of threads changes nothing.
+good render builtin:courtyard $small -o one.exr --quiet --threads 1
+[ ! -s stderr.txt ] || fail "--quiet writes lines"
+[ ! -s stdout.txt ] || fail "render writes to stdout"
+good render builtin:courtyard $small -o seven.exr --quiet --threads 7
+good compare --json one.exr seven.exr
+at_most "$(number max_error)" 0 "difference of 1 and 7 threads"
+
+# The camera that a run tells of gives the same picture again.
+good render builtin:courtyard $small -o told.exr
+camera=$(sed -n 's/^camera: //p' stderr.txt)
+radius=$(sed -n 's/^radius: \(--radius [^,]*\),.*/\1/p' stderr.txt)
+[ -n "$camera" ] && [ -n "$radius" ] || fail "camera or radius is not told"
+# shellcheck disable=SC2086 # words are meant to be split
+good render builtin:courtyard $small -o again.exr $camera $radius
+good compare --json told.exr again.exr
+# Six digits of the camera: a few silhouettes may move by a pixel.
+at_most "$(number mae)" 0.002 "difference of the told camera"
+
+# Two perpendicular planes: open far from the edge, about half closed in it.
+good render builtin:corner $small -o corner.exr --radius 0.5
+good render builtin:plane $small -o plane.exr --radius 0.5
+good compare --json corner.exr corner.exr
+at_most "$(number mean_a)" 0.9999 "mean accessibility of a corner"
+good compare --json plane.exr plane.exr
+at_least "$(number mean_a)" 0.98 "mean accessibility of a plane"
+
+# Partial cameras, an orthographic one, layers, face normals, no guard band, odd names.
+good render builtin:sphere $small -o "s p ä.png" --eye 3,4,5
+good render builtin:sphere $small -o out1.png --target 0,0,0 --up 0,0,1
+good render builtin:sphere $small -o out2.png --eye 0,9,0 --target 0,0,0
+good render builtin:sphere $small -o out3.png --ortho 5 --bits 16
+good render builtin:sphere $small -o out4.exr --vfov 20 --half
+good render builtin:sphere --size 33x21 -o out5.pfm --layers 4 --layer-kind back
+good render builtin:sphere --size 1x1 -o out6.png --guard-px 0 --normals-from face
+[ -s "s p ä.png" ] || fail "a name with spaces"
+
+# A mesh from a file, and an option without effect, which is told of but no error.
+cat >tetra.obj <<'OBJ'
+v 0 0 0
+v 1 0 0
+v 0 1 0
+v 0 0 1
+f 1 3 2
+f 1 2 4
+f 1 4 3
+f 2 3 4
+OBJ
+good render tetra.obj $small -o out7.png --tau 2 --falloff linear --filter none \
+    --filter-depth 0.5
+grep -q '^crevice: warning: filter_depth' stderr.txt || fail "no warning of a useless option"
+[ "$(grep -c '^crevice: warning: filter_depth' stderr.txt)" -eq 1 ] || fail "told twice"
+grep -q 'tetra.obj: 4 triangles' stderr.txt || fail "tetra.obj has four triangles"
+
+# A signal while a file is being written waits until it is whole.
+"$tool" gbuffer builtin:courtyard --size 1600x900 -o big.exr 2>stderr.txt &
+pid=$!
+until ls .crevice-* >/dev/null 2>&1; do
+    kill -0 $pid 2>/dev/null || break # too quick for us: then there is nothing to see
+done
+kill -TERM $pid 2>/dev/null && caught=yes || caught=no
+code=0
+wait $pid || code=$?
+if [ $caught = yes ] && [ $code -ne 0 ]; then
+    [ $code -eq 143 ] || fail "exit code $code after SIGTERM"
+    [ -z "$(ls .crevice-* 2>/dev/null)" ] || fail "a temporary file is left behind"
+    good compare big.exr big.exr --channel Z
+fi

@@ -1,0 +1,289 @@
+/* SPDX-License-Identifier: MIT */
+#include "args.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const arg output_line_rows[] = {
+    {.name = "--quiet",
+     .short_name = 'q',
+     .type = ARG_FLAG,
+     .offset = offsetof(common_settings, quiet),
+     .help = "write nothing but errors and warnings to stderr"},
+    {.name = "--verbose",
+     .short_name = 'v',
+     .type = ARG_FLAG,
+     .offset = offsetof(common_settings, verbose),
+     .help = "write more about what is done"},
+};
+const arg_table args_output_lines = ARG_TABLE("Messages", output_line_rows);
+
+static const arg thread_rows[] = {
+    {.name = "--threads",
+     .value = "N",
+     .type = ARG_INT,
+     .min = 0,
+     .max = 1024,
+     .offset = offsetof(common_settings, threads),
+     .initial = "0",
+     .help =
+         "threads to work with; 0: all processors. They change nothing in the result"},
+};
+const arg_table args_threads = ARG_TABLE("Work", thread_rows);
+
+const char *const args_png_bits[] = {"8", "16", NULL};
+
+enum { FLAGS_MAX = 128 };
+
+bool args_is_library_option(const char *key)
+{
+    return strcmp(key, "method") == 0 || strcmp(key, "filter") == 0
+           || crv_option_find(key) != NULL;
+}
+
+/* The row of this flag ("--size" or "-o"), its first `length` bytes counting. */
+static const arg *find_flag(const command *c, const char *flag, size_t length)
+{
+    for (size_t t = 0; c->tables[t] != NULL; t++) {
+        for (size_t i = 0; i < c->tables[t]->count; i++) {
+            const arg *row = &c->tables[t]->rows[i];
+            if (strlen(row->name) == length && row->name[0] == '-'
+                && memcmp(row->name, flag, length) == 0)
+                return row;
+            if (length == 2 && row->short_name != 0 && flag[1] == row->short_name)
+                return row;
+        }
+    }
+    return NULL;
+}
+
+static const arg *find_positional(const command *c, size_t index)
+{
+    for (size_t t = 0; c->tables[t] != NULL; t++) {
+        for (size_t i = 0; i < c->tables[t]->count; i++) {
+            const arg *row = &c->tables[t]->rows[i];
+            if (row->name[0] != '-' && index-- == 0)
+                return row;
+        }
+    }
+    return NULL;
+}
+
+/* Names are compared without their dashes, so that these don't count as letters met. */
+static int unknown_flag(const command *c, const char *flag, report *r)
+{
+    const char *names[FLAGS_MAX] = {"method", "filter"};
+    char keys[FLAGS_MAX][64];
+    int32_t count = c->library_options ? 2 : 0;
+    const char *nearest;
+
+    for (size_t t = 0; c->tables[t] != NULL; t++)
+        for (size_t i = 0; i < c->tables[t]->count && count < FLAGS_MAX; i++)
+            if (c->tables[t]->rows[i].name[0] == '-')
+                names[count++] = c->tables[t]->rows[i].name + 2;
+    for (int32_t i = 0; c->library_options && i < crv_option_count(); i++) {
+        if (count == FLAGS_MAX)
+            break;
+        snprintf(keys[count], sizeof keys[count], "%s", crv_option_at(i)->key);
+        for (char *p = keys[count]; *p != '\0'; p++)
+            *p = *p == '_' ? '-' : *p;
+        names[count] = keys[count];
+        count++;
+    }
+    nearest = crv_nearest_name(flag + strspn(flag, "-"), names, count);
+    if (nearest != NULL)
+        report_error(r, "%s: no such option; did you mean --%s?", flag, nearest);
+    else
+        report_error(r, "%s: no such option; see `crevice help %s`", flag, c->name);
+    return EXIT_USAGE;
+}
+
+static int wrong_value(const arg *row, const char *text, report *r)
+{
+    char values[256];
+    const char *nearest = NULL;
+
+    args_describe_values(row, values, sizeof values);
+    if (row->type == ARG_CHOICE)
+        nearest = crv_nearest_name(text, row->choices, -1);
+    if (nearest != NULL)
+        report_error(r, "%s: \"%s\" is not one of %s; did you mean %s?", row->name, text,
+                     values, nearest);
+    else
+        report_error(r, "%s: \"%s\" is not valid; give %s", row->name, text,
+                     values[0] != '\0' ? values : row->value);
+    return EXIT_USAGE;
+}
+
+/* `given` is the first member of every type that has it. */
+static void mark_given(const arg *row, void *settings)
+{
+    if (row->type != ARG_FLAG && row->type != ARG_TEXT)
+        *(bool *)((char *)settings + row->offset) = true;
+}
+
+static void set_defaults(const command *c, void *settings)
+{
+    for (size_t t = 0; c->tables[t] != NULL; t++)
+        for (size_t i = 0; i < c->tables[t]->count; i++)
+            if (c->tables[t]->rows[i].initial != NULL)
+                args_set_value(&c->tables[t]->rows[i], c->tables[t]->rows[i].initial,
+                               settings);
+}
+
+/* A method brings its own defaults, so it comes before all other options. */
+static int set_method(int argc, char **argv, common_settings *common, report *r)
+{
+    const char *name = NULL;
+
+    for (int i = 0; i < argc && strcmp(argv[i], "--") != 0; i++) {
+        if (strncmp(argv[i], "--method=", 9) == 0)
+            name = argv[i] + 9;
+        else if (strcmp(argv[i], "--method") == 0 && i + 1 < argc)
+            name = argv[i + 1];
+    }
+    if (!report_ok(r, crv_options_init(&common->options, sizeof common->options, NULL),
+                   "options"))
+        return EXIT_USAGE;
+    if (name == NULL)
+        return EXIT_DONE;
+    if (crv_options_set(&common->options, "method", name, &r->logger) == CRV_OK
+        && crv_options_init(&common->options, sizeof common->options, name) == CRV_OK)
+        return EXIT_DONE;
+    if (r->errors == 0)
+        report_error(r, "--method: no method \"%s\"; see `crevice methods`", name);
+    return EXIT_USAGE;
+}
+
+static int set_library_option(const char *flag, size_t length, const char *text,
+                              common_settings *common, report *r)
+{
+    char key[64];
+    const crv_option *option;
+
+    memcpy(key, flag + 2, length - 2);
+    key[length - 2] = '\0';
+    if (strcmp(key, "method") == 0)
+        return EXIT_DONE; /* set_method() has seen to it */
+    option = crv_option_find(key);
+    if (strcmp(key, "radius") == 0)
+        common->radius_given = true;
+    if (crv_options_set(&common->options, option != NULL ? option->key : key, text,
+                        &r->logger)
+        == CRV_OK)
+        return EXIT_DONE;
+    if (r->errors == 0)
+        report_error(r, "%s: \"%s\" is not valid; see `crevice methods`", key, text);
+    return EXIT_USAGE;
+}
+
+/* One flag at argv[*i], which moves on to the flag's value where that stands apart. */
+static int parse_flag(const command *c, int argc, char **argv, int *i, void *settings,
+                      report *r)
+{
+    const char *flag = argv[*i];
+    const char *equals = strncmp(flag, "--", 2) == 0 ? strchr(flag, '=') : NULL;
+    size_t length = equals != NULL ? (size_t)(equals - flag) : strlen(flag);
+    const arg *row = find_flag(c, flag, length);
+    const char *text = equals != NULL ? equals + 1 : NULL;
+    char key[64] = "";
+
+    if (row == NULL && c->library_options && length > 2 && length < sizeof key
+        && flag[1] == '-') {
+        memcpy(key, flag + 2, length - 2);
+        if (!args_is_library_option(key))
+            key[0] = '\0';
+    }
+    if (row == NULL && key[0] == '\0')
+        return unknown_flag(c, flag, r);
+    if (row != NULL && row->type == ARG_FLAG) {
+        if (text == NULL)
+            return args_set_value(row, "", settings) ? EXIT_DONE : EXIT_USAGE;
+        report_error(r, "%s: takes no value; leave out \"=%s\"", row->name, text);
+        return EXIT_USAGE;
+    }
+    if (text == NULL) {
+        /* A following option is a forgotten value, not a file of that name. */
+        if (*i + 1 >= argc || strncmp(argv[*i + 1], "--", 2) == 0) {
+            report_error(r, "%s: its value is missing; see `crevice help %s`", flag,
+                         c->name);
+            return EXIT_USAGE;
+        }
+        text = argv[++*i];
+    }
+    if (row == NULL)
+        return set_library_option(flag, length, text, settings, r);
+    if (!args_set_value(row, text, settings))
+        return wrong_value(row, text, r);
+    mark_given(row, settings);
+    return EXIT_DONE;
+}
+
+static int parse_positional(const command *c, const char *text, size_t *index,
+                            void *settings, report *r)
+{
+    const arg *row = find_positional(c, *index);
+
+    if (row == NULL) {
+        report_error(r, "\"%s\": one argument too many; see `crevice help %s`", text,
+                     c->name);
+        return EXIT_USAGE;
+    }
+    if (strcmp(text, "-") == 0) {
+        report_error(r, "%s: standard input is not read; name a file", row->name);
+        return EXIT_USAGE;
+    }
+    ++*index;
+    if (!args_set_value(row, text, settings)) {
+        report_error(r, "%s: is empty; name a file", row->name);
+        return EXIT_USAGE;
+    }
+    return EXIT_DONE;
+}
+
+static int check_required(const command *c, const void *settings, report *r)
+{
+    for (size_t t = 0; c->tables[t] != NULL; t++) {
+        for (size_t i = 0; i < c->tables[t]->count; i++) {
+            const arg *row = &c->tables[t]->rows[i];
+            const void *member = (const char *)settings + row->offset;
+            if (!row->required || *(const char *const *)member != NULL)
+                continue;
+            report_error(r, "%s is missing; see `crevice help %s`",
+                         row->short_name == 'o' ? "-o OUT" : row->name, c->name);
+            return EXIT_USAGE;
+        }
+    }
+    return EXIT_DONE;
+}
+
+int args_parse(const command *c, int argc, char **argv, void *settings, report *r)
+{
+    common_settings *common = settings;
+    bool options_end = false;
+    size_t positionals = 0;
+    int result = EXIT_DONE;
+
+    set_defaults(c, settings);
+    if (c->library_options)
+        result = set_method(argc, argv, common, r);
+    for (int i = 0; i < argc && result == EXIT_DONE; i++) {
+        if (!options_end && strcmp(argv[i], "--") == 0)
+            options_end = true;
+        else if (!options_end && argv[i][0] == '-' && argv[i][1] != '\0')
+            result = parse_flag(c, argc, argv, &i, settings, r);
+        else
+            result = parse_positional(c, argv[i], &positionals, settings, r);
+    }
+    if (result == EXIT_DONE)
+        result = check_required(c, settings, r);
+    if (result == EXIT_DONE && c->library_options) {
+        /* The plan warns of options without effect; here only what is wrong counts. */
+        crv_logger errors = report_errors_only(r);
+        if (!report_ok(r, crv_options_check(&common->options, &errors), "options"))
+            result = EXIT_USAGE;
+    }
+    r->quiet = common->quiet;
+    r->verbose = common->verbose;
+    return result;
+}

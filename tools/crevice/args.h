@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * args.h: arguments as rows of tables. A row says what the argument is called, which
+ * values it takes, what it is by default and where its value goes; parsing, checks and
+ * help all come from it. A command's settings are a struct that begins with struct
+ * common_settings; rows address its members by offset.
+ */
+#ifndef TOOL_ARGS_H
+#define TOOL_ARGS_H
+
+#include "report.h"
+
+typedef enum arg_type {
+    ARG_FLAG,   /* bool; takes no value */
+    ARG_TEXT,   /* const char *; NULL unless given */
+    ARG_INT,    /* arg_int */
+    ARG_NUMBER, /* arg_number; infinite only where max is */
+    ARG_VECTOR, /* arg_vector: X,Y,Z */
+    ARG_SIZE,   /* arg_size: WxH */
+    ARG_CHOICE  /* arg_int: the index of one of the choices */
+} arg_type;
+
+/* given: by the user. Where the row has a default, the value is set anyway. */
+typedef struct arg_int {
+    bool given;
+    int32_t value;
+} arg_int;
+
+typedef struct arg_number {
+    bool given;
+    double value;
+} arg_number;
+
+typedef struct arg_vector {
+    bool given;
+    float value[3];
+} arg_vector;
+
+typedef struct arg_size {
+    bool given;
+    int32_t width, height;
+} arg_size;
+
+typedef struct arg {
+    const char *name;  /* "--size", or "MODEL" for what goes without a flag */
+    char short_name;   /* 'o' for -o; 0 for none */
+    const char *value; /* what help calls the value */
+    arg_type type;
+    bool required;
+    size_t offset;              /* of the member in the settings */
+    double min, max;            /* int and number; inclusive */
+    const char *const *choices; /* NULL-terminated */
+    const char *unit;
+    const char *initial;  /* the default as the user would write it; parsed like it */
+    const char *computed; /* in help, where the default depends on the input */
+    const char *help;
+} arg;
+
+typedef struct arg_table {
+    const char *title;
+    const arg *rows;
+    size_t count;
+} arg_table;
+
+#define ARG_TABLE(title_, rows_)                                                         \
+    {                                                                                    \
+        title_, rows_, sizeof(rows_) / sizeof((rows_)[0])                                \
+    }
+
+/* What all commands have. */
+typedef struct common_settings {
+    bool quiet, verbose;
+    arg_int threads;
+    crv_options options; /* commands with library_options only */
+    bool radius_given;
+} common_settings;
+
+extern const arg_table args_output_lines; /* --quiet, --verbose */
+extern const arg_table args_threads;      /* --threads */
+extern const char *const args_png_bits[]; /* choices: 8, 16 */
+
+typedef struct command {
+    const char *name;
+    const char *summary;            /* one line */
+    const char *synopsis;           /* what follows the name, without options */
+    const char *details;            /* a paragraph of help, or NULL */
+    const arg_table *const *tables; /* NULL-terminated */
+    bool library_options;           /* takes --method, --filter and the option table */
+    const char *const *examples; /* NULL-terminated: comment, line, comment, line ... */
+    size_t settings_size;
+    int (*run)(const void *settings, report *r); /* returns an exit code */
+} command;
+
+/* Fills zeroed settings from argv (what follows the command's name). Returns EXIT_DONE
+ * or, after an error line, EXIT_USAGE. */
+int args_parse(const command *c, int argc, char **argv, void *settings, report *r);
+
+/* Reads one value into the row's member; false where it is not valid. */
+bool args_set_value(const arg *row, const char *text, void *settings);
+
+/* What values a row takes ("0.1 to 179 degrees"), "" where any text is fine. */
+void args_describe_values(const arg *row, char *out, size_t size);
+
+/* Whether an option that the user wrote, without its dashes, is one of the library. */
+bool args_is_library_option(const char *key);
+
+/* A whole finite or infinite number, nothing before or after it. */
+bool args_number(const char *text, double *out);
+
+#endif

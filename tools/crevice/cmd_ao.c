@@ -1,0 +1,370 @@
+/* SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <sys/stat.h>
+
+#include "commands.h"
+#include "estimate.h"
+#include "frames.h"
+#include "output.h"
+#include "passes.h"
+#include "radius.h"
+
+enum { PATH_SIZE = 4096 };
+
+typedef struct ao_settings {
+    common_settings common;
+    const char *input, *output, *frames;
+    const char *depth, *normal;
+    arg_int depth_encoding, normal_space;
+    arg_number vfov_deg, ortho, z_near, z_far, background;
+    arg_int bits;
+    bool half;
+} ao_settings;
+
+/* In the order of crv_depth_encoding. */
+static const char *const encodings[] = {"planar",   "radial",    "hardware",
+                                        "reversed", "disparity", NULL};
+/* In the order of io_normal_space. */
+static const char *const spaces[] = {"find", "view", "world", NULL};
+
+static const arg file_rows[] = {
+    {.name = "IN",
+     .type = ARG_TEXT,
+     .required = true,
+     .offset = offsetof(ao_settings, input),
+     .help =
+         "frame with a depth pass, and normals if there are any: .exr, or a grey .png "
+         "or .pfm of depth; shot.####.exr or shot.%04d.exr with --frames"},
+    {.name = "--output",
+     .short_name = 'o',
+     .value = "FILE",
+     .type = ARG_TEXT,
+     .required = true,
+     .offset = offsetof(ao_settings, output),
+     .help = "picture to write: .exr (channel AO), .png (linear grey) or .pfm"},
+    {.name = "--frames",
+     .value = "A-B[xSTEP]",
+     .type = ARG_TEXT,
+     .offset = offsetof(ao_settings, frames),
+     .help =
+         "frames to compute; the first that fails ends the run, those before it stay"},
+    {.name = "--bits",
+     .value = "N",
+     .type = ARG_CHOICE,
+     .choices = args_png_bits,
+     .initial = "8",
+     .offset = offsetof(ao_settings, bits),
+     .help = "depth of a PNG"},
+    {.name = "--half",
+     .type = ARG_FLAG,
+     .offset = offsetof(ao_settings, half),
+     .help = "half floats in an EXR"},
+};
+static const arg_table file_table = ARG_TABLE("Files", file_rows);
+
+static const arg pass_rows[] = {
+    {.name = "--depth",
+     .value = "NAME",
+     .type = ARG_TEXT,
+     .computed = "found by its name",
+     .offset = offsetof(ao_settings, depth),
+     .help = "the depth channel"},
+    {.name = "--normal",
+     .value = "NAME",
+     .type = ARG_TEXT,
+     .computed = "found by its name",
+     .offset = offsetof(ao_settings, normal),
+     .help = "the normals, without .X .Y .Z; none: take them from depth"},
+    {.name = "--normal-space",
+     .value = "SPACE",
+     .type = ARG_CHOICE,
+     .choices = spaces,
+     .initial = "find",
+     .offset = offsetof(ao_settings, normal_space),
+     .help = "the space of the normals"},
+    {.name = "--depth-encoding",
+     .value = "KIND",
+     .type = ARG_CHOICE,
+     .choices = encodings,
+     .initial = "planar",
+     .offset = offsetof(ao_settings, depth_encoding),
+     .help = "planar: distance along the viewing axis; radial: from the eye; hardware: "
+             "depth buffer, 0 at near; reversed: 1 at near; disparity: 1/planar"},
+    {.name = "--near",
+     .value = "D",
+     .type = ARG_NUMBER,
+     .min = -1e9,
+     .max = 1e9,
+     .unit = "scene units",
+     .offset = offsetof(ao_settings, z_near),
+     .help = "near plane of a hardware or reversed depth"},
+    {.name = "--far",
+     .value = "D",
+     .type = ARG_NUMBER,
+     .min = -1e9,
+     .max = INFINITY,
+     .unit = "scene units",
+     .offset = offsetof(ao_settings, z_far),
+     .help = "its far plane; inf for an infinite projection"},
+    {.name = "--background",
+     .value = "D",
+     .type = ARG_NUMBER,
+     .min = 1e-30,
+     .max = INFINITY,
+     .unit = "scene units",
+     .offset = offsetof(ao_settings, background),
+     .computed = "1e10",
+     .help = "planar or radial depth from which on there is nothing"},
+};
+static const arg_table pass_table = ARG_TABLE("Passes", pass_rows);
+
+static const arg camera_rows[] = {
+    {.name = "--vfov",
+     .value = "DEG",
+     .type = ARG_NUMBER,
+     .min = 0.1,
+     .max = 179.0,
+     .unit = "degrees",
+     .offset = offsetof(ao_settings, vfov_deg),
+     .computed = "from the file's metadata",
+     .help = "full vertical field of view"},
+    {.name = "--ortho",
+     .value = "HEIGHT",
+     .type = ARG_NUMBER,
+     .min = 1e-9,
+     .max = 1e9,
+     .unit = "scene units",
+     .offset = offsetof(ao_settings, ortho),
+     .help = "orthographic view of this height, instead of --vfov"},
+};
+static const arg_table camera_table = ARG_TABLE("Camera", camera_rows);
+
+static const arg_table *const tables[] = {
+    &file_table, &pass_table, &camera_table, &args_threads, &args_output_lines, NULL};
+
+static const char *const examples[] = {
+    "a frame whose camera was 60 degrees high",
+    "crevice ao frame.exr --vfov 60 -o ao.exr",
+    "a whole shot",
+    "crevice ao shot.####.exr --frames 1-240 --vfov 35 --radius 0.5 -o ao.####.exr",
+    "a depth buffer of a game, without normals",
+    "crevice ao depth.pfm --depth-encoding reversed --near 0.1 --far inf --vfov 70 -o "
+    "ao.png",
+    NULL,
+};
+
+static bool uses_planes(const ao_settings *s)
+{
+    return s->depth_encoding.value == CRV_DEPTH_HARDWARE
+           || s->depth_encoding.value == CRV_DEPTH_REVERSED;
+}
+
+static const char *depth_mistake(const ao_settings *s)
+{
+    bool distance = s->depth_encoding.value == CRV_DEPTH_PLANAR
+                    || s->depth_encoding.value == CRV_DEPTH_RADIAL;
+    bool ortho = s->ortho.given;
+
+    if (!uses_planes(s) && (s->z_near.given || s->z_far.given))
+        return "--near: is for --depth-encoding hardware or reversed; leave it out or "
+               "add "
+               "that";
+    if (!distance && s->background.given)
+        return "--background: is for planar or radial depth; leave it out";
+    if (!uses_planes(s))
+        return NULL;
+    if (!s->z_near.given || !s->z_far.given)
+        return "--depth-encoding: hardware depth has near and far planes; add --near and "
+               "--far";
+    if (!ortho && s->z_near.value <= 0.0)
+        return "--near: must be greater than 0";
+    if (s->z_far.value <= s->z_near.value)
+        return "--far: must be greater than --near";
+    if (ortho && isinf(s->z_far.value))
+        return "--far: must be finite in an orthographic view";
+    return NULL;
+}
+
+static bool exists(const char *path)
+{
+    struct stat info;
+
+    return stat(path, &info) == 0;
+}
+
+static const char *frames_mistake(const ao_settings *s, frame_range *range)
+{
+    if (s->frames == NULL) {
+        if (frames_places(s->input) > 0 && !exists(s->input))
+            return "--frames: is missing for a name with a frame number in it; add "
+                   "--frames A-B";
+        return NULL;
+    }
+    if (!frames_parse(s->frames, range))
+        return "--frames: is not a range; give A-B or A-BxSTEP, such as 1-240";
+    if (frames_places(s->input) != 1)
+        return "IN: needs one place for the frame's number; write shot.####.exr";
+    if (frames_places(s->output) != 1)
+        return "-o: needs one place for the frame's number; write ao.####.exr";
+    return NULL;
+}
+
+static int check(const ao_settings *s, frame_range *range, report *r)
+{
+    const char *mistake = depth_mistake(s);
+
+    if (mistake == NULL && s->vfov_deg.given && s->ortho.given)
+        mistake = "--ortho: contradicts --vfov; give one of them";
+    if (mistake == NULL)
+        mistake = frames_mistake(s, range);
+    if (mistake != NULL) {
+        report_error(r, "%s", mistake);
+        return EXIT_USAGE;
+    }
+    return EXIT_DONE;
+}
+
+static io_passes_request make_request(const ao_settings *s)
+{
+    io_passes_request request = {
+        .depth = s->depth,
+        .normal = s->normal,
+        .depth_format = crv_depth_format_planar(),
+        .normal_space = (io_normal_space)s->normal_space.value,
+    };
+
+    request.depth_format.encoding = (crv_depth_encoding)s->depth_encoding.value;
+    if (uses_planes(s)) {
+        request.depth_format.z_near = (float)s->z_near.value;
+        request.depth_format.z_far = (float)s->z_far.value;
+    }
+    if (s->background.given)
+        request.depth_format.background = (float)s->background.value;
+    if (s->vfov_deg.given)
+        request.vfov_rad = (float)(s->vfov_deg.value * 3.14159265358979323846 / 180.0);
+    if (s->ortho.given)
+        request.view_height = (float)s->ortho.value;
+    return request;
+}
+
+/* What lasts from frame to frame. */
+typedef struct shot {
+    const ao_settings *settings;
+    io_passes_request request;
+    crv_options options;
+    bool has_radius; /* the user's, or that of the first frame that shows anything */
+    estimator estimator;
+} shot;
+
+static int upload(estimator *e, const io_frame *frame, report *r)
+{
+    estimate_fit(e, &frame->desc);
+    return report_ok(r, io_frame_to_gbuffer(frame, e->context, &e->gbuffer), "G-buffer")
+               ? EXIT_DONE
+               : EXIT_FAILED;
+}
+
+static int fix_radius(shot *t, const io_frame *frame, report *r)
+{
+    float radius;
+    int result = radius_suggest(&t->estimator, frame, &radius, r);
+
+    if (result != EXIT_DONE || !(radius > 0.0f))
+        return result;
+    t->options.radius = radius;
+    t->has_radius = true;
+    report_info(r, "radius: --radius %g, 5 %% of the view's height at the median depth",
+                (double)radius);
+    return EXIT_DONE;
+}
+
+static int write_result(const shot *t, const char *path, const io_frame *frame,
+                        io_image *ao, report *r)
+{
+    io_write_options options = {.half = t->settings->half,
+                                .bits = t->settings->bits.value == 0 ? 8 : 16};
+
+    /* The result lies where the frame does, without its overscan. */
+    ao->data_x = frame->image.data_x + frame->desc.guard_left;
+    ao->data_y = frame->image.data_y + frame->desc.guard_top;
+    ao->display_width = frame->image.display_width;
+    ao->display_height = frame->image.display_height;
+    ao->pixel_aspect = frame->image.pixel_aspect;
+    ao->camera = frame->image.camera;
+    return output_write(path, ao, &options, r);
+}
+
+static int process(shot *t, const char *input, const char *output, report *r)
+{
+    io_frame frame = {0};
+    io_image ao = {0};
+    int result = output_check(output, input, r);
+
+    if (result == EXIT_DONE && io_frame_load(input, &t->request, &frame, &r->logger) != 0)
+        result = EXIT_FAILED;
+    if (result == EXIT_DONE)
+        result = upload(&t->estimator, &frame, r);
+    if (result == EXIT_DONE && !t->has_radius)
+        result = fix_radius(t, &frame, r);
+    if (result == EXIT_DONE)
+        result = estimate_plan(&t->estimator, &t->options, r);
+    if (result == EXIT_DONE)
+        result = estimate_run(&t->estimator, &ao, r);
+    if (result == EXIT_DONE)
+        result = write_result(t, output, &frame, &ao, r);
+    io_image_free(&ao);
+    io_frame_free(&frame);
+    return result;
+}
+
+static int process_range(shot *t, const frame_range *range, report *r)
+{
+    char input[PATH_SIZE], output[PATH_SIZE];
+    int result = EXIT_DONE;
+
+    for (int32_t f = range->first; f <= range->last && result == EXIT_DONE;
+         f += range->step) {
+        if (!frames_name(t->settings->input, f, input, sizeof input)
+            || !frames_name(t->settings->output, f, output, sizeof output)) {
+            report_error(r, "--frames: the names of frame %d are too long", f);
+            return EXIT_USAGE;
+        }
+        result = process(t, input, output, r);
+        r->brief = true;
+    }
+    return result;
+}
+
+static int run(const void *settings, report *r)
+{
+    const ao_settings *s = settings;
+    shot t = {.settings = s, .has_radius = s->common.radius_given};
+    frame_range range;
+    int result = check(s, &range, r);
+
+    if (result != EXIT_DONE)
+        return result;
+    t.request = make_request(s);
+    t.options = s->common.options;
+    result = estimate_open(&t.estimator, &s->common, r);
+    if (result == EXIT_DONE)
+        result = s->frames != NULL ? process_range(&t, &range, r)
+                                   : process(&t, s->input, s->output, r);
+    estimate_close(&t.estimator);
+    return result;
+}
+
+const command command_ao = {
+    .name = "ao",
+    .summary = "depth and normal passes to ambient occlusion, also for whole shots",
+    .synopsis = "IN.exr -o OUT.exr [options]",
+    .details =
+        "What lies in the frame's overscan occludes but gets no result. Without a "
+        "radius, 5 % of the view's height at the median depth is taken; a range of "
+        "frames keeps that of its first.",
+    .tables = tables,
+    .library_options = true,
+    .examples = examples,
+    .settings_size = sizeof(ao_settings),
+    .run = run,
+};

@@ -1,0 +1,244 @@
+/* SPDX-License-Identifier: MIT */
+#include <cjson/cJSON.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "commands.h"
+#include "help.h"
+
+typedef struct methods_settings {
+    common_settings common;
+    const char *name;
+    bool json;
+} methods_settings;
+
+static const arg methods_rows[] = {
+    {.name = "NAME",
+     .type = ARG_TEXT,
+     .offset = offsetof(methods_settings, name),
+     .help = "a method or filter to tell all about; without it, all are listed"},
+    {.name = "--json",
+     .type = ARG_FLAG,
+     .offset = offsetof(methods_settings, json),
+     .help = "write JSON"},
+};
+static const arg_table methods_table = ARG_TABLE("What to list", methods_rows);
+
+static const arg_table *const tables[] = {&methods_table, &args_output_lines, NULL};
+
+static const char *const examples[] = {
+    "what there is",
+    "crevice methods",
+    "one method and every option that it reads",
+    "crevice methods hbao",
+    NULL,
+};
+
+static const char *weighting_name(crv_weighting weighting)
+{
+    return weighting == CRV_WEIGHTING_COSINE ? "cosine" : "uniform";
+}
+
+/* The options read by the method alone: a filter's are listed with the filter. */
+static bool method_reads(const crv_option *option, const crv_method *method)
+{
+    return crv_option_applies(option, method, NULL) != 0;
+}
+
+static bool filter_reads(const crv_option *option, const crv_filter *filter)
+{
+    return crv_option_applies(option, NULL, filter) != 0
+           && crv_option_applies(option, NULL, NULL) == 0;
+}
+
+static void print_option_brief(const crv_option *option)
+{
+    char flag[80], values[256], initial[64];
+
+    help_option_flag(option, flag, sizeof flag);
+    help_option_values(option, values, sizeof values);
+    help_option_default(option, initial, sizeof initial);
+    printf("    %-18s %s (%s)\n", flag, initial, values);
+}
+
+static void print_method(const crv_method *method, bool all)
+{
+    printf("%s: %s\n", method->name, method->title);
+    printf("    %s\n", method->paper);
+    printf("    %s weighting of the hemisphere\n", weighting_name(method->weighting));
+    if (all)
+        printf("\n");
+    for (int32_t i = 0; i < crv_option_count(); i++) {
+        const crv_option *option = crv_option_at(i);
+        if (!method_reads(option, method))
+            continue;
+        if (all)
+            help_library_option(stdout, option);
+        else
+            print_option_brief(option);
+    }
+}
+
+static void print_filter(const crv_filter *filter, bool all)
+{
+    printf("%s: %s\n", filter->name, filter->title);
+    printf("    %s\n", filter->paper);
+    if (all)
+        printf("\n");
+    for (int32_t i = 0; i < crv_option_count(); i++) {
+        const crv_option *option = crv_option_at(i);
+        if (!filter_reads(option, filter))
+            continue;
+        if (all)
+            help_library_option(stdout, option);
+        else
+            print_option_brief(option);
+    }
+}
+
+static void print_all(void)
+{
+    printf(
+        "Methods (--method), with the options that each reads, default and range:\n\n");
+    for (int32_t i = 0; i < crv_method_count(); i++) {
+        print_method(crv_method_at(i), false);
+        printf("\n");
+    }
+    printf("Filters (--filter, or none):\n");
+    for (int32_t i = 0; i < crv_filter_count(); i++) {
+        printf("\n");
+        print_filter(crv_filter_at(i), false);
+    }
+}
+
+static cJSON *option_json(const crv_option *option)
+{
+    static const char *const types[] = {"float", "int", "bool", "choice"};
+    cJSON *object = cJSON_CreateObject();
+    char flag[80], initial[64];
+
+    help_option_flag(option, flag, sizeof flag);
+    help_option_default(option, initial, sizeof initial);
+    cJSON_AddStringToObject(object, "key", option->key);
+    cJSON_AddStringToObject(object, "flag", flag);
+    cJSON_AddStringToObject(object, "type", types[option->type]);
+    cJSON_AddStringToObject(object, "unit", option->unit);
+    if (option->type == CRV_OPTION_CHOICE) {
+        cJSON *choices = cJSON_AddArrayToObject(object, "choices");
+        for (int32_t i = 0; option->choices[i] != NULL; i++)
+            cJSON_AddItemToArray(choices, cJSON_CreateString(option->choices[i]));
+        cJSON_AddStringToObject(object, "default", initial);
+    } else if (option->type == CRV_OPTION_BOOL) {
+        cJSON_AddBoolToObject(object, "default", option->default_value > 0.0);
+    } else {
+        cJSON_AddNumberToObject(object, "default", option->default_value);
+        cJSON_AddNumberToObject(object, "min", option->min);
+        cJSON_AddNumberToObject(object, "max", option->max);
+    }
+    cJSON_AddStringToObject(object, "help", option->help);
+    return object;
+}
+
+static void add_method(cJSON *list, const crv_method *method)
+{
+    cJSON *object = cJSON_CreateObject();
+    cJSON *options;
+
+    cJSON_AddStringToObject(object, "name", method->name);
+    cJSON_AddStringToObject(object, "title", method->title);
+    cJSON_AddStringToObject(object, "paper", method->paper);
+    cJSON_AddStringToObject(object, "weighting", weighting_name(method->weighting));
+    options = cJSON_AddArrayToObject(object, "options");
+    for (int32_t i = 0; i < crv_option_count(); i++)
+        if (method_reads(crv_option_at(i), method))
+            cJSON_AddItemToArray(options, option_json(crv_option_at(i)));
+    cJSON_AddItemToArray(list, object);
+}
+
+static void add_filter(cJSON *list, const crv_filter *filter)
+{
+    cJSON *object = cJSON_CreateObject();
+    cJSON *options;
+
+    cJSON_AddStringToObject(object, "name", filter->name);
+    cJSON_AddStringToObject(object, "title", filter->title);
+    cJSON_AddStringToObject(object, "paper", filter->paper);
+    options = cJSON_AddArrayToObject(object, "options");
+    for (int32_t i = 0; i < crv_option_count(); i++)
+        if (filter_reads(crv_option_at(i), filter))
+            cJSON_AddItemToArray(options, option_json(crv_option_at(i)));
+    cJSON_AddItemToArray(list, object);
+}
+
+/* method and filter NULL: all of both. */
+static int print_json(const crv_method *method, const crv_filter *filter, report *r)
+{
+    bool all = method == NULL && filter == NULL;
+    cJSON *root = cJSON_CreateObject();
+    cJSON *list;
+    char *text;
+
+    cJSON_AddStringToObject(root, "version", crv_version());
+    list = cJSON_AddArrayToObject(root, "methods");
+    for (int32_t i = 0; i < crv_method_count(); i++)
+        if (all || crv_method_at(i) == method)
+            add_method(list, crv_method_at(i));
+    list = cJSON_AddArrayToObject(root, "filters");
+    for (int32_t i = 0; i < crv_filter_count(); i++)
+        if (all || crv_filter_at(i) == filter)
+            add_filter(list, crv_filter_at(i));
+    text = cJSON_Print(root);
+    cJSON_Delete(root);
+    if (text == NULL)
+        return report_no_memory(r);
+    puts(text);
+    cJSON_free(text);
+    return EXIT_DONE;
+}
+
+static int unknown_name(const char *name, report *r)
+{
+    const char *names[64];
+    int32_t count = 0;
+    const char *nearest;
+
+    for (int32_t i = 0; i < crv_method_count() && count < 64; i++)
+        names[count++] = crv_method_at(i)->name;
+    for (int32_t i = 0; i < crv_filter_count() && count < 64; i++)
+        names[count++] = crv_filter_at(i)->name;
+    nearest = crv_nearest_name(name, names, count);
+    if (nearest != NULL)
+        report_error(r, "%s: no such method or filter; did you mean %s?", name, nearest);
+    else
+        report_error(r, "%s: no such method or filter; see `crevice methods`", name);
+    return EXIT_USAGE;
+}
+
+static int run(const void *settings, report *r)
+{
+    const methods_settings *s = settings;
+    const crv_method *method = s->name != NULL ? crv_method_find(s->name) : NULL;
+    const crv_filter *filter = s->name != NULL ? crv_filter_find(s->name) : NULL;
+
+    if (s->name != NULL && method == NULL && filter == NULL)
+        return unknown_name(s->name, r);
+    if (s->json)
+        return print_json(method, filter, r);
+    if (method != NULL)
+        print_method(method, true);
+    if (filter != NULL)
+        print_filter(filter, true);
+    if (s->name == NULL)
+        print_all();
+    return EXIT_DONE;
+}
+
+const command command_methods = {
+    .name = "methods",
+    .summary = "what there is, from which paper, which options",
+    .synopsis = "[NAME] [--json]",
+    .tables = tables,
+    .examples = examples,
+    .settings_size = sizeof(methods_settings),
+    .run = run,
+};

@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: MIT */
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands.h"
+#include "estimate.h"
+#include "output.h"
+#include "view.h"
+
+enum { SHADE_AO, SHADE_LIT, SHADE_LIT_NO_AO };
+
+typedef struct render_settings {
+    view_settings view;
+    arg_int shade;
+    const char *lit, *unlit;
+    arg_int bits;
+    bool half;
+} render_settings;
+
+static const char *const shades[] = {"ao", "lit", "lit-no-ao", NULL};
+
+static const arg render_rows[] = {
+    VIEW_MODEL_ROW,
+    {.name = "--output",
+     .short_name = 'o',
+     .value = "FILE",
+     .type = ARG_TEXT,
+     .required = true,
+     .offset = offsetof(view_settings, output),
+     .help = "picture to write: .png, .exr or .pfm"},
+    {.name = "--shade",
+     .value = "KIND",
+     .type = ARG_CHOICE,
+     .choices = shades,
+     .initial = "ao",
+     .offset = offsetof(render_settings, shade),
+     .help = "what OUT shows: accessibility alone (EXR: channel AO; PNG: grey, linear), "
+             "or the lit scene with or without it (EXR: R, G, B, linear; PNG: sRGB)"},
+    {.name = "--lit",
+     .value = "FILE",
+     .type = ARG_TEXT,
+     .offset = offsetof(render_settings, lit),
+     .help = "also write the lit scene with ambient occlusion"},
+    {.name = "--unlit",
+     .value = "FILE",
+     .type = ARG_TEXT,
+     .offset = offsetof(render_settings, unlit),
+     .help = "also write the lit scene without ambient occlusion"},
+    {.name = "--bits",
+     .value = "N",
+     .type = ARG_CHOICE,
+     .choices = args_png_bits,
+     .initial = "8",
+     .offset = offsetof(render_settings, bits),
+     .help = "depth of a PNG"},
+    {.name = "--half",
+     .type = ARG_FLAG,
+     .offset = offsetof(render_settings, half),
+     .help = "half floats in an EXR"},
+};
+static const arg_table render_table = ARG_TABLE("Pictures", render_rows);
+
+static const arg_table *const tables[] = {
+    &render_table, &view_camera, &view_buffers, &args_threads, &args_output_lines, NULL};
+
+static const char *const examples[] = {
+    "ambient occlusion of a mesh, framed by itself",
+    "crevice render model.glb -o ao.png",
+    "one run, three pictures",
+    "crevice render builtin:courtyard -o ao.png --lit lit.png --unlit plain.png",
+    "a chosen camera and radius, two depth layers",
+    "crevice render hall.glb -o ao.exr --eye -8.5,1.2,-0.3 --target 0,2.8,0.3 --vfov 60 "
+    "--radius 1 --layers 2",
+    NULL,
+};
+
+static int check(const render_settings *s, report *r)
+{
+    const char *paths[] = {s->view.output, s->lit, s->unlit};
+    int result = view_check(&s->view, r);
+
+    for (int i = 0; i < 3 && result == EXIT_DONE; i++) {
+        if (paths[i] == NULL)
+            continue;
+        for (int j = 0; j < i && result == EXIT_DONE; j++) {
+            if (paths[j] != NULL && strcmp(paths[i], paths[j]) == 0) {
+                report_error(r, "%s: is named for two pictures; choose another name",
+                             paths[i]);
+                result = EXIT_USAGE;
+            }
+        }
+        if (result == EXIT_DONE)
+            result = output_check(paths[i], s->view.model, r);
+    }
+    return result;
+}
+
+static int estimate(const render_settings *s, const scene *model, const scene_gbuffer *g,
+                    io_image *ao, report *r)
+{
+    crv_options options = s->view.common.options;
+    estimator e;
+    int result;
+
+    if (!s->view.common.radius_given) {
+        options.radius = scene_suggest_radius(model, &g->view);
+        report_info(r, "radius: --radius %g, chosen to suit the view",
+                    (double)options.radius);
+    }
+    result = estimate_open(&e, &s->view.common, r);
+    if (result == EXIT_DONE) {
+        estimate_fit(&e, &g->desc);
+        if (!report_ok(r, scene_gbuffer_upload(g, e.context, &e.gbuffer), "G-buffer"))
+            result = EXIT_FAILED;
+    }
+    if (result == EXIT_DONE)
+        result = estimate_plan(&e, &options, r);
+    if (result == EXIT_DONE)
+        result = estimate_run(&e, ao, r);
+    estimate_close(&e);
+    return result;
+}
+
+static int write_image(const render_settings *s, const char *path, const io_image *image,
+                       bool srgb, report *r)
+{
+    io_write_options options = {
+        .half = s->half, .bits = s->bits.value == 0 ? 8 : 16, .srgb = srgb};
+
+    return output_write(path, image, &options, r);
+}
+
+/* ao NULL: without ambient occlusion. */
+static int write_lit(const render_settings *s, const char *path, const scene *model,
+                     const scene_gbuffer *g, const io_image *ao, report *r)
+{
+    static const char *const names[] = {"R", "G", "B"};
+    int32_t width = s->view.size.width, height = s->view.size.height;
+    size_t count = (size_t)width * (size_t)height;
+    float *pixels = malloc(count * 3 * sizeof *pixels);
+    crv_image rgb = crv_image_packed(pixels, width, height, 3);
+    crv_image access = {0};
+    io_image image = {0};
+    int result = EXIT_FAILED;
+
+    if (pixels == NULL)
+        return report_no_memory(r);
+    if (ao != NULL)
+        access = crv_image_packed(ao->channels[0].data, width, height, 1);
+    if (scene_shade(model, g, ao != NULL ? &access : NULL, &rgb,
+                    s->view.common.threads.value, &r->logger)
+            == 0
+        && io_image_init(&image, width, height, names, 3, &r->logger) == 0) {
+        for (size_t i = 0; i < count; i++)
+            for (size_t c = 0; c < 3; c++)
+                image.channels[c].data[i] = pixels[i * 3 + c];
+        result = write_image(s, path, &image, true, r);
+    }
+    io_image_free(&image);
+    free(pixels);
+    return result;
+}
+
+static int write_all(const render_settings *s, const scene *model, const scene_gbuffer *g,
+                     const io_image *ao, report *r)
+{
+    const char *output = s->view.output;
+    int result = EXIT_DONE;
+
+    if (s->shade.value == SHADE_AO)
+        result = write_image(s, output, ao, false, r);
+    else
+        result =
+            write_lit(s, output, model, g, s->shade.value == SHADE_LIT ? ao : NULL, r);
+    if (result == EXIT_DONE && s->lit != NULL)
+        result = write_lit(s, s->lit, model, g, ao, r);
+    if (result == EXIT_DONE && s->unlit != NULL)
+        result = write_lit(s, s->unlit, model, g, NULL, r);
+    return result;
+}
+
+static int run(const void *settings, report *r)
+{
+    const render_settings *s = settings;
+    bool needs_ao = s->shade.value != SHADE_LIT_NO_AO || s->lit != NULL;
+    scene *model = NULL;
+    scene_gbuffer g = {0};
+    io_image ao = {0};
+    int result = check(s, r);
+
+    if (result == EXIT_DONE)
+        result = view_load(&s->view, &model, r);
+    if (result == EXIT_DONE)
+        result = view_render(&s->view, model, &g, r);
+    if (result == EXIT_DONE && needs_ao)
+        result = estimate(s, model, &g, &ao, r);
+    if (result == EXIT_DONE)
+        result = write_all(s, model, &g, &ao, r);
+    io_image_free(&ao);
+    scene_gbuffer_free(&g);
+    scene_free(model);
+    return result;
+}
+
+const command command_render = {
+    .name = "render",
+    .summary = "a mesh to a picture of its ambient occlusion",
+    .synopsis = "MODEL -o FILE [options]",
+    .details =
+        "The mesh is drawn by ray casting, so no GPU is needed. Without a camera it "
+        "is framed by itself; without a radius one is chosen, and told.",
+    .tables = tables,
+    .library_options = true,
+    .examples = examples,
+    .settings_size = sizeof(render_settings),
+    .run = run,
+};

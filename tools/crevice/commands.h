@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: MIT */
+/* commands.h: the commands, one file each; main.c lists them. */
+#ifndef TOOL_COMMANDS_H
+#define TOOL_COMMANDS_H
+
+#include "args.h"
+
+extern const command command_render;
+extern const command command_ao;
+extern const command command_gbuffer;
+extern const command command_compare;
+extern const command command_methods;
+
+#endif

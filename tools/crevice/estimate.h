@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT */
+/* estimate.h: context, G-buffer and plan, kept for as long as frames fit them. */
+#ifndef TOOL_ESTIMATE_H
+#define TOOL_ESTIMATE_H
+
+#include "args.h"
+#include "io.h"
+
+typedef struct estimator {
+    crv_context *context;
+    crv_gbuffer *gbuffer; /* NULL until the first upload */
+    crv_plan *plan;
+    crv_options options;
+    crv_gbuffer_desc desc;
+} estimator;
+
+int estimate_open(estimator *e, const common_settings *common, report *r);
+
+/* Makes room for a G-buffer of this description: an equal one keeps plan and G-buffer,
+ * another drops both. Then e->gbuffer may be filled. */
+void estimate_fit(estimator *e, const crv_gbuffer_desc *desc);
+
+/* Makes the plan, where there is none of this radius yet. */
+int estimate_plan(estimator *e, const crv_options *options, report *r);
+
+/* Runs the plan on e->gbuffer. *out gets one channel, AO; the caller frees it. */
+int estimate_run(estimator *e, io_image *out, report *r);
+
+void estimate_close(estimator *e);
+
+#endif

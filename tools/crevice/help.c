@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: MIT */
+#include "help.h"
+
+#include <string.h>
+
+enum { WIDTH = 90, COLUMN = 27, ENTRY_SIZE = 1024 };
+
+/* Words of text from column `column` on, indented by `indent` where a line breaks. */
+static void write_wrapped(FILE *out, const char *text, int column, int indent)
+{
+    bool first = true;
+
+    while (*text != '\0') {
+        int length = (int)strcspn(text, " ");
+
+        if (!first && column + 1 + length > WIDTH) {
+            fprintf(out, "\n%*s", indent, "");
+            column = indent;
+            first = true;
+        }
+        fprintf(out, "%s%.*s", first ? "" : " ", length, text);
+        column += length + !first;
+        first = false;
+        text += length;
+        text += strspn(text, " ");
+    }
+    fputc('\n', out);
+}
+
+static void write_entry(FILE *out, const char *head, const char *text)
+{
+    int used = fprintf(out, "  %s", head);
+
+    if (used < COLUMN - 1)
+        fprintf(out, "%*s", COLUMN - used, "");
+    else
+        fprintf(out, "\n%*s", COLUMN, "");
+    write_wrapped(out, text, COLUMN, COLUMN);
+}
+
+static void write_row(FILE *out, const arg *row)
+{
+    char shorthand[8] = "", head[128], values[256], text[ENTRY_SIZE];
+    const char *initial = row->computed != NULL ? row->computed : row->initial;
+    bool has_values;
+
+    if (row->short_name != 0)
+        snprintf(shorthand, sizeof shorthand, "-%c, ", row->short_name);
+    snprintf(head, sizeof head, "%s%s%s%s", shorthand, row->name,
+             row->value != NULL ? " " : "", row->value != NULL ? row->value : "");
+    args_describe_values(row, values, sizeof values);
+    has_values = values[0] != '\0';
+    snprintf(text, sizeof text, "%s%s%s%s%s%s%s", row->help,
+             has_values || initial != NULL ? " [" : "", values,
+             has_values && initial != NULL ? "; " : "", initial != NULL ? "default " : "",
+             initial != NULL ? initial : "", has_values || initial != NULL ? "]" : "");
+    write_entry(out, head, text);
+}
+
+void help_option_flag(const crv_option *option, char *out, size_t size)
+{
+    snprintf(out, size, "--%s", option->key);
+    for (char *p = out; *p != '\0'; p++)
+        *p = *p == '_' ? '-' : *p;
+}
+
+void help_option_values(const crv_option *option, char *out, size_t size)
+{
+    const char *space = option->unit[0] != '\0' ? " " : "";
+    size_t used = 0;
+
+    if (option->type == CRV_OPTION_BOOL) {
+        snprintf(out, size, "on|off");
+    } else if (option->type == CRV_OPTION_CHOICE) {
+        out[0] = '\0';
+        for (int32_t i = 0; option->choices[i] != NULL && used < size; i++)
+            used += (size_t)snprintf(out + used, size - used, "%s%s", i == 0 ? "" : "|",
+                                     option->choices[i]);
+    } else {
+        snprintf(out, size, "%.10g to %.10g%s%s", option->min, option->max, space,
+                 option->unit);
+    }
+}
+
+void help_option_default(const crv_option *option, char *out, size_t size)
+{
+    if (option->type == CRV_OPTION_BOOL)
+        snprintf(out, size, "%s", option->default_value > 0.0 ? "on" : "off");
+    else if (option->type == CRV_OPTION_CHOICE)
+        snprintf(out, size, "%s", option->choices[(int32_t)option->default_value]);
+    else
+        snprintf(out, size, "%.6g", option->default_value);
+}
+
+void help_library_option(FILE *out, const crv_option *option)
+{
+    static const char *const value_names[] = {"X", "N", "on|off", "NAME"};
+    char flag[80], head[96], values[256], initial[64], text[ENTRY_SIZE];
+
+    help_option_flag(option, flag, sizeof flag);
+    help_option_values(option, values, sizeof values);
+    help_option_default(option, initial, sizeof initial);
+    snprintf(head, sizeof head, "%s %s", flag, value_names[option->type]);
+    if (strcmp(option->key, "radius") == 0)
+        snprintf(initial, sizeof initial, "chosen to suit the input");
+    snprintf(text, sizeof text, "%s [%s; default %s]", option->help, values, initial);
+    write_entry(out, head, text);
+}
+
+static void write_library_options(FILE *out)
+{
+    char text[ENTRY_SIZE] = "how to estimate: ";
+    size_t used = strlen(text);
+
+    fprintf(out,
+            "\nAmbient occlusion (see `crevice methods` for which method reads what):\n");
+    for (int32_t i = 0; i < crv_method_count() && used < sizeof text; i++)
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s",
+                                 i == 0 ? "" : "|", crv_method_at(i)->name);
+    write_entry(out, "--method NAME", text);
+    used = (size_t)snprintf(text, sizeof text, "how to smooth the result: none");
+    for (int32_t i = 0; i < crv_filter_count() && used < sizeof text; i++)
+        used += (size_t)snprintf(text + used, sizeof text - used, "|%s",
+                                 crv_filter_at(i)->name);
+    write_entry(out, "--filter NAME", text);
+    for (int32_t i = 0; i < crv_option_count(); i++)
+        help_library_option(out, crv_option_at(i));
+}
+
+void help_command(FILE *out, const command *c)
+{
+    fprintf(out, "usage: crevice %s %s\n\n", c->name, c->synopsis);
+    write_wrapped(out, c->summary, 0, 0);
+    if (c->details != NULL) {
+        fputc('\n', out);
+        write_wrapped(out, c->details, 0, 0);
+    }
+    for (size_t t = 0; c->tables[t] != NULL; t++) {
+        fprintf(out, "\n%s:\n", c->tables[t]->title);
+        for (size_t i = 0; i < c->tables[t]->count; i++)
+            write_row(out, &c->tables[t]->rows[i]);
+    }
+    if (c->library_options)
+        write_library_options(out);
+    fprintf(out, "\nExamples:\n");
+    for (size_t i = 0; c->examples[i] != NULL; i += 2)
+        fprintf(out, "  # %s\n  %s\n", c->examples[i], c->examples[i + 1]);
+}
+
+void help_overview(FILE *out, const command *const *commands)
+{
+    fprintf(out, "usage: crevice COMMAND ...\n\n"
+                 "Ambient occlusion from meshes, and from depth and normal passes.\n\n");
+    for (size_t i = 0; commands[i] != NULL; i++) {
+        char head[32];
+        snprintf(head, sizeof head, "%-10s", commands[i]->name);
+        fprintf(out, "  %s %s\n", head, commands[i]->summary);
+    }
+    fprintf(out, "\n`crevice help COMMAND` says more; `crevice --version` the version.\n"
+                 "Exit code: 0 done, 1 failed, 2 wrong usage.\n");
+}

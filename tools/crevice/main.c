@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: MIT */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands.h"
+#include "help.h"
+
+static const command *const commands[] = {&command_render,  &command_ao,
+                                          &command_gbuffer, &command_compare,
+                                          &command_methods, NULL};
+
+static const command *find_command(const char *name, report *r)
+{
+    const char *names[16];
+    int32_t count = 0;
+    const char *nearest;
+
+    for (; commands[count] != NULL; count++) {
+        if (strcmp(commands[count]->name, name) == 0)
+            return commands[count];
+        names[count] = commands[count]->name;
+    }
+    nearest = crv_nearest_name(name, names, count);
+    if (nearest != NULL)
+        report_error(r, "%s: no such command; did you mean %s?", name, nearest);
+    else
+        report_error(r, "%s: no such command; see `crevice help`", name);
+    return NULL;
+}
+
+static int help(int argc, char **argv, report *r)
+{
+    if (argc == 0) {
+        help_overview(stdout, commands);
+        return EXIT_DONE;
+    }
+    const command *c = find_command(argv[0], r);
+    if (c == NULL)
+        return EXIT_USAGE;
+    help_command(stdout, c);
+    return EXIT_DONE;
+}
+
+static bool wants_help(int argc, char **argv)
+{
+    for (int i = 0; i < argc && strcmp(argv[i], "--") != 0; i++)
+        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0)
+            return true;
+    return false;
+}
+
+static int run_command(const command *c, int argc, char **argv, report *r)
+{
+    void *settings;
+    int result;
+
+    if (wants_help(argc, argv)) {
+        help_command(stdout, c);
+        return EXIT_DONE;
+    }
+    settings = calloc(1, c->settings_size);
+    if (settings == NULL)
+        return report_no_memory(r);
+    result = args_parse(c, argc, argv, settings, r);
+    if (result == EXIT_DONE)
+        result = c->run(settings, r);
+    free(settings);
+    return result;
+}
+
+static int dispatch(int argc, char **argv, report *r)
+{
+    if (argc < 2) {
+        help_overview(stderr, commands);
+        return EXIT_USAGE;
+    }
+    if (strcmp(argv[1], "--version") == 0) {
+        printf("crevice %s\n", crv_version());
+        return EXIT_DONE;
+    }
+    if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0)
+        return help(0, NULL, r);
+    if (strcmp(argv[1], "help") == 0)
+        return help(argc - 2, argv + 2, r);
+    const command *c = find_command(argv[1], r);
+    return c != NULL ? run_command(c, argc - 2, argv + 2, r) : EXIT_USAGE;
+}
+
+int main(int argc, char **argv)
+{
+    report r;
+    int result;
+
+    report_init(&r);
+    result = dispatch(argc, argv, &r);
+    /* A full disk behind a redirection shows only now. */
+    if ((fflush(stdout) != 0 || ferror(stdout)) && result == EXIT_DONE) {
+        report_error(&r, "standard output: could not be written; is the disk full?");
+        result = EXIT_FAILED;
+    }
+    if (result != EXIT_DONE && r.errors == 0 && argc >= 2)
+        report_error(&r, "%s: failed", argv[1]);
+    return result;
+}

@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+
+#include "output.h"
+
+#include <signal.h>
+#include <sys/stat.h>
+
+static const int held_signals[] = {SIGINT, SIGTERM, SIGHUP};
+enum { HELD_COUNT = sizeof held_signals / sizeof held_signals[0] };
+
+static volatile sig_atomic_t caught_signal;
+
+static void on_signal(int number)
+{
+    caught_signal = number;
+}
+
+static bool same_file(const char *a, const char *b)
+{
+    struct stat first, second;
+
+    return stat(a, &first) == 0 && stat(b, &second) == 0 && first.st_dev == second.st_dev
+           && first.st_ino == second.st_ino;
+}
+
+int output_check(const char *path, const char *input, report *r)
+{
+    if (input != NULL && same_file(path, input)) {
+        report_error(r, "%s: is the input; choose another name for the output", path);
+        return EXIT_USAGE;
+    }
+    return io_check_writable(path, &r->logger) == 0 ? EXIT_DONE : EXIT_FAILED;
+}
+
+/* io_write() goes through a temporary file, which a signal in the middle would leave
+ * behind; so signals are held until it is done and then take their course. */
+int output_write(const char *path, const io_image *image, const io_write_options *options,
+                 report *r)
+{
+    struct sigaction hold = {.sa_handler = on_signal, .sa_flags = SA_RESTART};
+    struct sigaction former[HELD_COUNT];
+    int result;
+
+    caught_signal = 0;
+    sigemptyset(&hold.sa_mask);
+    for (int i = 0; i < HELD_COUNT; i++) {
+        sigaction(held_signals[i], NULL, &former[i]);
+        /* What the caller ignores, as nohup does, stays ignored. */
+        if (former[i].sa_handler != SIG_IGN)
+            sigaction(held_signals[i], &hold, NULL);
+    }
+    result = io_write(path, image, options, &r->logger);
+    for (int i = 0; i < HELD_COUNT; i++)
+        sigaction(held_signals[i], &former[i], NULL);
+    if (caught_signal != 0)
+        raise(caught_signal);
+    if (result != 0)
+        return EXIT_FAILED;
+    report_info(r, "wrote %s", path);
+    return EXIT_DONE;
+}

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: MIT */
+/* output.h: pictures out, without half-written files. */
+#ifndef TOOL_OUTPUT_H
+#define TOOL_OUTPUT_H
+
+#include "args.h"
+#include "io.h"
+
+/* Whether the picture could be written there, and would not replace `input` (NULL:
+ * there is none). Returns an exit code; meant for before the work. */
+int output_check(const char *path, const char *input, report *r);
+
+/* Writes and tells of it. An interrupt waits until the file is whole. */
+int output_write(const char *path, const io_image *image, const io_write_options *options,
+                 report *r);
+
+#endif

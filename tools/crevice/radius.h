@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: MIT */
+/* radius.h: a radius of influence for frames that come without one. */
+#ifndef TOOL_RADIUS_H
+#define TOOL_RADIUS_H
+
+#include "estimate.h"
+#include "passes.h"
+
+/* A twentieth of the height that the picture shows at the median depth, rounded to two
+ * digits: the same share of the picture whatever the scene's units are. 0 where the frame
+ * is empty. e->gbuffer must hold the frame. Returns an exit code. */
+int radius_suggest(estimator *e, const io_frame *frame, float *out, report *r);
+
+#endif

@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+
+#include "report.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+enum { LINE_SIZE = 8192 };
+
+/* One call, one line: a line break in a file's name must not make two of it. */
+static void write_line(const char *prefix, const char *line)
+{
+    char clean[LINE_SIZE];
+    size_t i = 0;
+
+    for (; line[i] != '\0' && i + 1 < sizeof clean; i++) {
+        unsigned char c = (unsigned char)line[i];
+        clean[i] = c < 0x20 || c == 0x7f ? '?' : line[i];
+    }
+    clean[i] = '\0';
+    fprintf(stderr, "%s%s\n", prefix, clean);
+}
+
+static void on_log(void *user, crv_log_level level, const char *line)
+{
+    report *r = user;
+
+    if (level == CRV_LOG_ERROR) {
+        r->errors++;
+        write_line("crevice: ", line);
+    } else if (level == CRV_LOG_WARNING) {
+        write_line("crevice: warning: ", line);
+    } else if (!r->quiet && (!r->brief || r->verbose)) {
+        write_line("", line);
+    }
+}
+
+static void on_log_errors_only(void *user, crv_log_level level, const char *line)
+{
+    if (level == CRV_LOG_ERROR)
+        on_log(user, level, line);
+}
+
+void report_init(report *r)
+{
+    *r = (report){0};
+    r->logger = (crv_logger){.fn = on_log, .user = r};
+}
+
+crv_logger report_errors_only(report *r)
+{
+    return (crv_logger){.fn = on_log_errors_only, .user = r};
+}
+
+void report_error(report *r, const char *format, ...)
+{
+    char line[LINE_SIZE];
+    va_list arguments;
+
+    va_start(arguments, format);
+    vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    r->errors++;
+    write_line("crevice: ", line);
+}
+
+void report_info(report *r, const char *format, ...)
+{
+    char line[LINE_SIZE];
+    va_list arguments;
+
+    if (r->quiet)
+        return;
+    va_start(arguments, format);
+    vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    write_line("", line);
+}
+
+void report_detail(report *r, const char *format, ...)
+{
+    char line[LINE_SIZE];
+    va_list arguments;
+
+    if (!r->verbose)
+        return;
+    va_start(arguments, format);
+    vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    write_line("", line);
+}
+
+bool report_ok(report *r, crv_status status, const char *doing)
+{
+    if (status == CRV_OK)
+        return true;
+    if (status == CRV_ERROR_OUT_OF_MEMORY && r->errors == 0)
+        report_no_memory(r);
+    else if (r->errors == 0)
+        report_error(r, "%s: %s", doing, crv_status_string(status));
+    return false;
+}
+
+int report_no_memory(report *r)
+{
+    report_error(r, "out of memory; choose a smaller size or fewer layers");
+    return EXIT_FAILED;
+}
+
+double report_seconds(void)
+{
+    struct timespec now = {0};
+
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}

@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: MIT */
+/* Text to values, completely: "12abc" is not a number. */
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "args.h"
+
+bool args_number(const char *text, double *out)
+{
+    char *end = NULL;
+    double value;
+
+    if (text[0] == '\0' || isspace((unsigned char)text[0]))
+        return false;
+    value = strtod(text, &end);
+    if (end == text || *end != '\0' || isnan(value))
+        return false;
+    *out = value;
+    return true;
+}
+
+static bool set_int(const arg *row, const char *text, arg_int *out)
+{
+    double value;
+
+    if (!args_number(text, &value) || value < row->min || value > row->max
+        || floor(value) < value)
+        return false;
+    out->value = (int32_t)value;
+    return true;
+}
+
+static bool set_number(const arg *row, const char *text, arg_number *out)
+{
+    double value;
+
+    if (!args_number(text, &value) || value < row->min || value > row->max)
+        return false;
+    out->value = value;
+    return true;
+}
+
+static bool set_vector(const char *text, arg_vector *out)
+{
+    char copy[128];
+    char *part = copy;
+
+    if (strlen(text) >= sizeof copy)
+        return false;
+    memcpy(copy, text, strlen(text) + 1);
+    for (int i = 0; i < 3; i++) {
+        char *comma = strchr(part, ',');
+        double value;
+
+        if ((comma == NULL) != (i == 2))
+            return false;
+        if (comma != NULL)
+            *comma = '\0';
+        /* Squares of coordinates must stay finite in single precision. */
+        if (!args_number(part, &value) || !(fabs(value) < 1e18))
+            return false;
+        out->value[i] = (float)value;
+        if (comma != NULL)
+            part = comma + 1;
+    }
+    return true;
+}
+
+/* Digits only, so that neither "+1x1" nor "1e3x1" passes. */
+static bool edge(const char *text, const char **end, int32_t *out)
+{
+    int64_t value = 0;
+
+    if (!isdigit((unsigned char)*text))
+        return false;
+    for (; isdigit((unsigned char)*text); text++) {
+        value = value * 10 + (*text - '0');
+        if (value > CRV_MAX_SIZE)
+            return false;
+    }
+    *out = (int32_t)value;
+    *end = text;
+    return value >= 1;
+}
+
+static bool set_size(const char *text, arg_size *out)
+{
+    const char *rest;
+
+    return edge(text, &rest, &out->width) && (*rest == 'x' || *rest == 'X')
+           && edge(rest + 1, &rest, &out->height) && *rest == '\0';
+}
+
+static bool set_choice(const arg *row, const char *text, arg_int *out)
+{
+    for (int32_t i = 0; row->choices[i] != NULL; i++) {
+        if (strcmp(text, row->choices[i]) == 0) {
+            out->value = i;
+            return true;
+        }
+    }
+    return false;
+}
+
+bool args_set_value(const arg *row, const char *text, void *settings)
+{
+    void *member = (char *)settings + row->offset;
+
+    switch (row->type) {
+    case ARG_FLAG:
+        *(bool *)member = true;
+        return true;
+    case ARG_TEXT:
+        *(const char **)member = text;
+        return text[0] != '\0';
+    case ARG_INT:
+        return set_int(row, text, member);
+    case ARG_NUMBER:
+        return set_number(row, text, member);
+    case ARG_VECTOR:
+        return set_vector(text, member);
+    case ARG_SIZE:
+        return set_size(text, member);
+    case ARG_CHOICE:
+        return set_choice(row, text, member);
+    }
+    return false;
+}
+
+static void describe_choices(const arg *row, char *out, size_t size)
+{
+    size_t used = 0;
+
+    for (int32_t i = 0; row->choices[i] != NULL && used < size; i++)
+        used += (size_t)snprintf(out + used, size - used, "%s%s", i == 0 ? "" : "|",
+                                 row->choices[i]);
+}
+
+void args_describe_values(const arg *row, char *out, size_t size)
+{
+    const char *space = row->unit != NULL ? " " : "";
+    const char *unit = row->unit != NULL ? row->unit : "";
+
+    out[0] = '\0';
+    switch (row->type) {
+    case ARG_FLAG:
+    case ARG_TEXT:
+        break;
+    case ARG_INT:
+    case ARG_NUMBER:
+        snprintf(out, size, "%g to %g%s%s", row->min, row->max, space, unit);
+        break;
+    case ARG_VECTOR:
+        snprintf(out, size, "three numbers X,Y,Z%s%s", space, unit);
+        break;
+    case ARG_SIZE:
+        snprintf(out, size, "WIDTHxHEIGHT, each 1 to %d px", CRV_MAX_SIZE);
+        break;
+    case ARG_CHOICE:
+        describe_choices(row, out, size);
+        break;
+    }
+}

@@ -1,0 +1,269 @@
+/* SPDX-License-Identifier: MIT */
+#include "view.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double degree = 3.14159265358979323846 / 180.0;
+
+static const char *const layer_kinds[] = {"next", "back", NULL};
+static const char *const normal_kinds[] = {"interpolated", "face", NULL};
+
+static const arg camera_rows[] = {
+    {.name = "--size",
+     .value = "WxH",
+     .type = ARG_SIZE,
+     .initial = "1280x720",
+     .offset = offsetof(view_settings, size),
+     .help = "size of the picture"},
+    {.name = "--eye",
+     .value = "X,Y,Z",
+     .type = ARG_VECTOR,
+     .unit = "in scene units",
+     .offset = offsetof(view_settings, eye),
+     .computed = "framed",
+     .help = "where the camera is"},
+    {.name = "--target",
+     .value = "X,Y,Z",
+     .type = ARG_VECTOR,
+     .unit = "in scene units",
+     .offset = offsetof(view_settings, target),
+     .computed = "the scene's centre",
+     .help = "the point that it looks at"},
+    {.name = "--up",
+     .value = "X,Y,Z",
+     .type = ARG_VECTOR,
+     .offset = offsetof(view_settings, up),
+     .computed = "0,1,0",
+     .help = "the direction that is up in the picture"},
+    {.name = "--vfov",
+     .value = "DEG",
+     .type = ARG_NUMBER,
+     .min = 0.1,
+     .max = 179.0,
+     .unit = "degrees",
+     .offset = offsetof(view_settings, vfov_deg),
+     .computed = "45, or the built-in scene's",
+     .help = "full vertical field of view"},
+    {.name = "--ortho",
+     .value = "HEIGHT",
+     .type = ARG_NUMBER,
+     .min = 1e-9,
+     .max = 1e9,
+     .unit = "scene units",
+     .offset = offsetof(view_settings, ortho),
+     .help = "orthographic view of this height, instead of --vfov"},
+};
+const arg_table view_camera =
+    ARG_TABLE("Camera (framed by itself without these)", camera_rows);
+
+static const arg buffer_rows[] = {
+    {.name = "--layers",
+     .value = "N",
+     .type = ARG_INT,
+     .min = 1,
+     .max = CRV_MAX_LAYERS,
+     .initial = "1",
+     .offset = offsetof(view_settings, layers),
+     .help = "depth layers: further ones occlude from behind the first surface"},
+    {.name = "--layer-kind",
+     .value = "KIND",
+     .type = ARG_CHOICE,
+     .initial = "next",
+     .choices = layer_kinds,
+     .offset = offsetof(view_settings, layer_kind),
+     .help = "what a further layer holds: the next surface, or the next back face"},
+    {.name = "--normals-from",
+     .value = "KIND",
+     .type = ARG_CHOICE,
+     .initial = "interpolated",
+     .choices = normal_kinds,
+     .offset = offsetof(view_settings, normals_from),
+     .help = "normals of the mesh's vertices, or of its triangles"},
+    {.name = "--guard-px",
+     .value = "N",
+     .type = ARG_INT,
+     .min = 0,
+     .max = CRV_MAX_SIZE,
+     .unit = "px",
+     .offset = offsetof(view_settings, guard_px),
+     .computed = "a tenth of the height",
+     .help = "width of the band beyond each border of the picture that occludes, so "
+             "that occlusion does not fade there"},
+};
+const arg_table view_buffers = ARG_TABLE("Buffers", buffer_rows);
+
+static int32_t guard_px(const view_settings *s)
+{
+    return s->guard_px.given ? s->guard_px.value : (s->size.height + 9) / 10;
+}
+
+static const char *builtin_name(const char *model)
+{
+    return strncmp(model, "builtin:", 8) == 0 ? model + 8 : NULL;
+}
+
+static int check_builtin(const char *name, report *r)
+{
+    const char *names[64];
+    int32_t count = 0;
+    const char *nearest;
+
+    for (; count < 64 && scene_builtin_name(count) != NULL; count++) {
+        names[count] = scene_builtin_name(count);
+        if (strcmp(names[count], name) == 0)
+            return EXIT_DONE;
+    }
+    nearest = crv_nearest_name(name, names, count);
+    if (nearest == NULL && count > 0)
+        nearest = names[0];
+    report_error(r, "builtin:%s: no such scene; did you mean builtin:%s?", name,
+                 nearest != NULL ? nearest : "");
+    return EXIT_USAGE;
+}
+
+int view_check(const view_settings *s, report *r)
+{
+    int64_t guard = guard_px(s);
+    const float *up = s->up.value;
+
+    if (s->vfov_deg.given && s->ortho.given) {
+        report_error(r, "--ortho: contradicts --vfov; give one of them");
+        return EXIT_USAGE;
+    }
+    if (s->size.width + 2 * guard > CRV_MAX_SIZE
+        || s->size.height + 2 * guard > CRV_MAX_SIZE) {
+        report_error(
+            r,
+            "--guard-px: %d px on each side make more than %d px; give a smaller "
+            "--size or --guard-px",
+            (int32_t)guard, CRV_MAX_SIZE);
+        return EXIT_USAGE;
+    }
+    if (s->up.given && !(fabsf(up[0]) + fabsf(up[1]) + fabsf(up[2]) > 0.0f)) {
+        report_error(r, "--up: has no length; give a direction such as 0,1,0");
+        return EXIT_USAGE;
+    }
+    return builtin_name(s->model) != NULL ? check_builtin(builtin_name(s->model), r)
+                                          : EXIT_DONE;
+}
+
+int view_load(const view_settings *s, scene **out, report *r)
+{
+    const char *name = builtin_name(s->model);
+    double start = report_seconds();
+    int result = name != NULL ? scene_builtin(name, out, &r->logger)
+                              : scene_load(s->model, out, &r->logger);
+
+    if (result != 0)
+        return EXIT_FAILED;
+    report_info(r, "%s: %lld triangles, %.2f s", s->model,
+                (long long)scene_triangle_count(*out), report_seconds() - start);
+    return EXIT_DONE;
+}
+
+static void copy3(float to[3], const float from[3])
+{
+    memcpy(to, from, 3 * sizeof *to);
+}
+
+/* What sin^2 of the angle between the view and `up` is; NAN where the view is a point. */
+static double up_slant(const scene_view *v)
+{
+    double d[3], cross[3], d2 = 0.0, up2 = 0.0, cross2 = 0.0;
+
+    for (int i = 0; i < 3; i++) {
+        d[i] = (double)v->target[i] - (double)v->eye[i];
+        d2 += d[i] * d[i];
+        up2 += (double)v->up[i] * (double)v->up[i];
+    }
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        cross[i] = d[j] * (double)v->up[k] - d[k] * (double)v->up[j];
+        cross2 += cross[i] * cross[i];
+    }
+    return cross2 / (d2 * up2);
+}
+
+/* The framed view, changed where the user says so. An eye alone looks at the scene's
+ * centre; a target alone is seen from the framed direction and distance. */
+static int choose_view(const view_settings *s, const scene *model, scene_view *v,
+                       report *r)
+{
+    float vfov = (float)((s->vfov_deg.given ? s->vfov_deg.value : 45.0) * degree);
+    float lower[3], upper[3];
+
+    scene_frame(model, vfov, (float)s->size.width / (float)s->size.height, v);
+    scene_bounds(model, lower, upper);
+    for (int i = 0; i < 3; i++) {
+        float offset = v->eye[i] - v->target[i];
+        if (s->target.given)
+            v->target[i] = s->target.value[i];
+        else if (s->eye.given)
+            v->target[i] = 0.5f * (lower[i] + upper[i]);
+        v->eye[i] = s->eye.given ? s->eye.value[i]
+                                 : (s->target.given ? v->target[i] + offset : v->eye[i]);
+    }
+    if (s->eye.given || s->target.given)
+        copy3(v->up, (const float[3]){0.0f, 1.0f, 0.0f});
+    if (s->up.given)
+        copy3(v->up, s->up.value);
+    if (s->vfov_deg.given || s->ortho.given)
+        v->projection = s->ortho.given ? CRV_ORTHOGRAPHIC : CRV_PERSPECTIVE;
+    if (s->vfov_deg.given)
+        v->vfov_rad = vfov;
+    if (s->ortho.given)
+        v->view_height = (float)s->ortho.value;
+    if (isnan(up_slant(v))) {
+        report_error(r, "--eye: is the same point as the target; move one of them");
+        return EXIT_USAGE;
+    }
+    if (up_slant(v) > 1e-10)
+        return EXIT_DONE;
+    if (s->up.given) {
+        report_error(r, "--up: lies along the view; give another direction");
+        return EXIT_USAGE;
+    }
+    copy3(v->up, (const float[3]){0.0f, 0.0f, -1.0f});
+    return EXIT_DONE;
+}
+
+static void tell_view(const scene_view *v, report *r)
+{
+    bool ortho = v->projection == CRV_ORTHOGRAPHIC;
+
+    report_info(r,
+                "camera: --eye %.6g,%.6g,%.6g --target %.6g,%.6g,%.6g --up "
+                "%.6g,%.6g,%.6g %s %.6g",
+                (double)v->eye[0], (double)v->eye[1], (double)v->eye[2],
+                (double)v->target[0], (double)v->target[1], (double)v->target[2],
+                (double)v->up[0], (double)v->up[1], (double)v->up[2],
+                ortho ? "--ortho" : "--vfov",
+                ortho ? (double)v->view_height : (double)v->vfov_rad / degree);
+}
+
+int view_render(const view_settings *s, const scene *model, scene_gbuffer *out, report *r)
+{
+    scene_gbuffer_request request = {
+        .width = s->size.width,
+        .height = s->size.height,
+        .guard_px = guard_px(s),
+        .layers = s->layers.value,
+        .layer_kind = s->layer_kind.value == 0 ? SCENE_LAYERS_NEXT : SCENE_LAYERS_BACK,
+        .normals =
+            s->normals_from.value == 0 ? SCENE_NORMALS_INTERPOLATED : SCENE_NORMALS_FACE,
+        .threads = s->common.threads.value,
+    };
+    double start = report_seconds();
+    int result = choose_view(s, model, &request.view, r);
+
+    if (result != EXIT_DONE)
+        return result;
+    tell_view(&request.view, r);
+    if (scene_render_gbuffer(model, &request, out, &r->logger) != 0)
+        return EXIT_FAILED;
+    report_info(r, "G-buffer %dx%d, guard band %d px, layers %d: %.2f s", s->size.width,
+                s->size.height, request.guard_px, request.layers,
+                report_seconds() - start);
+    return EXIT_DONE;
+}

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: MIT */
+/* view.h: the arguments and steps that render and gbuffer share: model, camera, layers.
+ */
+#ifndef TOOL_VIEW_H
+#define TOOL_VIEW_H
+
+#include "args.h"
+#include "scene.h"
+
+/* The settings of both commands begin with this. */
+typedef struct view_settings {
+    common_settings common;
+    const char *model;
+    const char *output;
+    arg_size size;
+    arg_vector eye, target, up;
+    arg_number vfov_deg, ortho;
+    arg_int layers, layer_kind, normals_from, guard_px;
+} view_settings;
+
+extern const arg_table view_camera;  /* --size, --eye ... */
+extern const arg_table view_buffers; /* --layers ... */
+
+#define VIEW_MODEL_ROW                                                                   \
+    {                                                                                    \
+        .name = "MODEL", .type = ARG_TEXT, .required = true,                             \
+        .offset = offsetof(view_settings, model),                                        \
+        .help = "mesh file (glTF, OBJ, PLY, STL, FBX, ...), or a scene made in code: "   \
+                "builtin:courtyard, builtin:NAME"                                        \
+    }
+
+/* What can be known to be wrong before anything is loaded. Returns an exit code. */
+int view_check(const view_settings *s, report *r);
+
+/* Loads the model, or makes the built-in one. */
+int view_load(const view_settings *s, scene **out, report *r);
+
+/* Chooses the camera and ray-casts the G-buffer. */
+int view_render(const view_settings *s, const scene *model, scene_gbuffer *out,
+                report *r);
+
+#endif
