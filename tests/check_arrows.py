@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Who may include whom. Usage: check_arrows.py ROOT; exits 1 and lists what breaks a rule."""
+import os
+import re
+import sys
+
+# Folder: the rooms whose headers its files may include. The first folder that a path
+# begins with is its room.
+ROOMS = {
+    "include/crevice": set(),
+    "src/shared": set(),
+    "src/base": {"include/crevice"},
+    "src/core": {"include/crevice", "src/base", "src/shared"},
+    "src/methods": {"include/crevice", "src/base", "src/core", "src/shared"},
+    "src/filters": {"include/crevice", "src/base", "src/core", "src/shared"},
+    "src/cpu/simd": set(),
+    "src/cpu/kernels": {"src/cpu/simd", "src/shared"},
+    "src/cpu": {"include/crevice", "src/base", "src/core", "src/shared",
+                "src/cpu/simd", "src/cpu/kernels"},
+    "src/vulkan": {"include/crevice", "src/base", "src/core", "src/shared"},
+    "io": {"include/crevice"},
+    "scene": {"include/crevice"},
+    "tools": {"include/crevice", "io", "scene"},
+    "bench": {"include/crevice", "io", "scene"},
+    "examples": {"include/crevice"},
+}
+
+# A header that a room may include beyond its rooms: the registries are lists that the
+# core reads, and nothing else of methods and filters is.
+EXTRA = {
+    "src/core": {"src/methods/list.h", "src/filters/list.h"},
+}
+
+STANDARD = set("""assert.h complex.h ctype.h errno.h fenv.h float.h inttypes.h iso646.h
+limits.h locale.h math.h setjmp.h signal.h stdalign.h stdarg.h stdatomic.h stdbool.h
+stddef.h stdint.h stdio.h stdlib.h stdnoreturn.h string.h tgmath.h threads.h time.h
+uchar.h wchar.h wctype.h""".split())
+
+# The headers from outside that a room may include; rooms that are not listed: any that no
+# other room owns.
+SYSTEM = {
+    "include/crevice": {"stdbool.h", "stddef.h", "stdint.h"},
+    "src/shared": {"stddef.h", "stdint.h"},  # offsetof pins layouts
+    "src/base": STANDARD | {"malloc.h", "omp.h"},  # Windows has its aligned allocator there
+    "src/core": STANDARD,
+    "src/methods": STANDARD,
+    "src/filters": STANDARD,
+    "src/cpu/kernels": {"stdint.h"},
+    "src/cpu": STANDARD,
+}
+
+# Libraries that belong to one room.
+OWNED = {
+    r"(openexr|OpenEXR|png|zlib)": "io",
+    r"(embree\d*/|assimp/)": "scene",
+    r"(cjson/|cJSON)": "tools",
+}
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)', re.M)
+COMMENT = re.compile(r"/\*.*?\*/", re.S)
+
+
+def room_of(path):
+    for room in ROOMS:
+        if path.startswith(room + "/"):
+            return room
+    return None
+
+
+def resolve(root, includer, name):
+    """The project's file that a name means, relative to root, or None."""
+    folders = [os.path.dirname(includer), "include", "src", "io", "scene"]
+    for folder in folders:
+        path = os.path.normpath(os.path.join(folder, name))
+        if os.path.isfile(os.path.join(root, path)):
+            return path
+    return None
+
+
+def fault_of(root, path, name, quoted):
+    """What is wrong with `path` including `name`, or None."""
+    room = room_of(path)
+    target = resolve(root, path, name)
+    if target is not None:
+        target_room = room_of(target)
+        if target_room == room or target in EXTRA.get(room, ()):
+            return None
+        if target_room in ROOMS[room]:
+            if target_room == "include/crevice" and not name.startswith("crevice/"):
+                return f'includes a public header as "{name}"; write "crevice/..."'
+            return None
+        return f"includes {target}, which {room}/ may not"
+    if quoted:
+        return f'includes "{name}", which is not in the project'
+    allowed = SYSTEM.get(room)
+    if allowed is not None and name not in allowed:
+        return f"includes <{name}>, which {room}/ may not"
+    for pattern, owner in OWNED.items():
+        if re.match(pattern, name) and room != owner and not (
+                owner == "tools" and room == "bench"):
+            return f"includes <{name}>, which belongs to {owner}/"
+    return None
+
+
+def sources(root):
+    for folder in ("include", "src", "io", "scene", "tools", "bench", "examples"):
+        for where, folders, names in os.walk(os.path.join(root, folder)):
+            folders.sort()
+            for name in sorted(names):
+                if name.endswith((".c", ".h", ".inc", ".glsl", ".comp")):
+                    yield os.path.relpath(os.path.join(where, name), root)
+
+
+def main(root):
+    faults = 0
+    count = 0
+    for path in sources(root):
+        count += 1
+        if room_of(path) is None:
+            print(f"{path}: lies in no room; move it, or add its folder to {__file__}")
+            faults += 1
+            continue
+        with open(os.path.join(root, path), encoding="utf-8") as file:
+            text = COMMENT.sub(lambda m: "\n" * m.group().count("\n"), file.read())
+        for match in INCLUDE.finditer(text):
+            name = match.group(1) or match.group(2)
+            fault = fault_of(root, path, name, match.group(1) is not None)
+            if fault:
+                line = text.count("\n", 0, match.start(match.lastindex)) + 1
+                print(f"{path}:{line}: {fault}")
+                faults += 1
+    if count == 0:
+        print(f"{root}: no source file; give the root of the repository")
+        faults += 1
+    print(f"{count} files, {faults} faults")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit("usage: check_arrows.py ROOT")
+    sys.exit(main(sys.argv[1]))

@@ -1,0 +1,67 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# Installs the library, moves the installed tree, and builds and runs a host against it,
+# through CMake's find_package and through pkg-config; then builds one that takes the
+# sources in. Usage: check_package.sh SOURCE WORK CC shared|static
+set -eu
+source=$1 work=$2 cc=$3 kind=$4
+case $kind in
+shared) shared=ON ;;
+static) shared=OFF ;;
+*)
+    echo "unknown kind $kind" >&2
+    exit 2
+    ;;
+esac
+consumer=$source/tests/consumer_cmake
+rm -rf "$work"
+mkdir -p "$work"
+
+configure()
+{
+    cmake -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_COMPILER="$cc" \
+        --log-level=WARNING "$@" >/dev/null
+}
+
+echo "-- $kind library, installed"
+configure -S "$source" -B "$work/build" -DBUILD_SHARED_LIBS=$shared \
+    -DCREVICE_BUILD_TOOLS=OFF -DCREVICE_BUILD_TESTS=OFF -DCREVICE_BUILD_EXAMPLES=OFF \
+    -DCMAKE_INSTALL_PREFIX="$work/first prefix"
+cmake --build "$work/build" -- --quiet
+cmake --install "$work/build" >/dev/null
+mv "$work/first prefix" "$work/prefix"
+
+# Nothing but the public headers, and no path of the build, may have got out.
+(cd "$source/include" && find crevice -name '*.h' | sort) >"$work/expected"
+(cd "$work/prefix/include" && find . -type f | sed 's|^\./||' | sort) >"$work/installed"
+diff "$work/expected" "$work/installed"
+if grep -rIlF -e "$source" -e "$work" "$work/prefix"; then
+    echo "the files above name a folder of the build" >&2
+    exit 1
+fi
+
+echo "-- find_package"
+configure -S "$consumer" -B "$work/consumer_cmake" -DCMAKE_PREFIX_PATH="$work/prefix"
+cmake --build "$work/consumer_cmake" -- --quiet
+"$work/consumer_cmake/consumer"
+
+echo "-- pkg-config"
+pc=$(find "$work/prefix" -name crevice.pc)
+PKG_CONFIG_PATH=$(dirname "$pc")
+export PKG_CONFIG_PATH
+libdir=$(dirname "$PKG_CONFIG_PATH")
+pkg-config --validate crevice
+# eval: pkg-config escapes blanks in paths for the shell.
+eval "$cc -std=c11 \"\$consumer/main.c\" -o \"\$work/consumer_pkgconfig\" \
+    $(pkg-config --cflags --libs crevice)"
+LD_LIBRARY_PATH=$libdir "$work/consumer_pkgconfig"
+if [ "$kind" = static ] && readelf -d "$work/consumer_pkgconfig" | grep -q libcrevice; then
+    echo "the static library was not linked" >&2
+    exit 1
+fi
+
+echo "-- add_subdirectory"
+configure -S "$consumer" -B "$work/consumer_source" -DCREVICE_SOURCE="$source" \
+    -DBUILD_SHARED_LIBS=$shared
+cmake --build "$work/consumer_source" -- --quiet
+"$work/consumer_source/consumer"

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: MIT
+# Style, headers and installation: scripts that look at the source tree, or build their own.
+# Sanitizers have nothing to find there.
+if(CREVICE_SANITIZE)
+    return()
+endif()
+
+set(here ${CMAKE_CURRENT_SOURCE_DIR})
+function(style_test name)
+    add_test(NAME ${name} COMMAND ${ARGN})
+    set_tests_properties(${name} PROPERTIES LABELS style TIMEOUT 120 SKIP_RETURN_CODE 77)
+endfunction()
+function(packaging_test name)
+    add_test(NAME ${name} COMMAND ${ARGN})
+    set_tests_properties(${name} PROPERTIES LABELS packaging TIMEOUT 300)
+endfunction()
+
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+style_test(style_arrows ${Python3_EXECUTABLE} ${here}/check_arrows.py ${PROJECT_SOURCE_DIR})
+style_test(style_text ${Python3_EXECUTABLE} ${here}/check_style.py ${PROJECT_SOURCE_DIR})
+style_test(style_scripts ${Python3_EXECUTABLE} ${here}/check_scripts.py)
+style_test(style_format sh ${here}/check_format.sh ${PROJECT_SOURCE_DIR})
+style_test(style_headers sh ${here}/check_headers.sh
+    ${PROJECT_SOURCE_DIR}/include ${CMAKE_C_COMPILER} g++)
+style_test(style_setup bash ${here}/check_setup.sh ${PROJECT_SOURCE_DIR})
+
+foreach(kind shared static)
+    packaging_test(packaging_${kind} sh ${here}/check_package.sh ${PROJECT_SOURCE_DIR}
+        ${CMAKE_CURRENT_BINARY_DIR}/packaging_${kind} ${CMAKE_C_COMPILER} ${kind})
+endforeach()
+if(TARGET crevice_tool)
+    packaging_test(packaging_tool sh ${here}/check_tool_install.sh ${PROJECT_BINARY_DIR}
+        ${CMAKE_CURRENT_BINARY_DIR}/packaging_tool)
+endif()
+if(TARGET example_minimal)
+    packaging_test(packaging_example ${Python3_EXECUTABLE} ${here}/check_example.py
+        $<TARGET_FILE:example_minimal> ${CMAKE_CURRENT_BINARY_DIR}/packaging_example)
+endif()
