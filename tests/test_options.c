@@ -168,6 +168,45 @@ static void options_are_checked(void **state)
     assert_int_equal(crv_options_check(NULL, NULL), CRV_ERROR_INVALID_ARGUMENT);
 }
 
+/* Every preset of every method is understood, sets only what the method reads, and
+ * changes something from one level to the next. */
+static void presets_are_sound(void **state)
+{
+    (void)state;
+    for (int32_t i = 0; i < crv_method_count(); i++) {
+        const crv_method *method = crv_method_at(i);
+        const char *before = NULL;
+        for (int k = 0; k < CRV_PRESET_COUNT; k++) {
+            crv_options o = fixture_options(method->name);
+            recorder r = {0};
+            const crv_logger logger = {record, &r};
+            const char *text = crv_preset_text(method, (crv_preset)k);
+            assert_non_null(crv_preset_name((crv_preset)k));
+            assert_int_equal(crv_options_preset(&o, (crv_preset)k), CRV_OK);
+            assert_int_equal(crv_options_check(&o, &logger), CRV_OK);
+            assert_int_equal(r.warnings, 0);
+            assert_true(!before || strcmp(before, text) != 0);
+            before = text;
+            char key[32], value[32];
+            int length = 0;
+            for (; sscanf(text, " %31[^=]=%31s%n", key, value, &length) == 2;
+                 text += length) {
+                if (strcmp(key, "filter") == 0)
+                    continue;
+                assert_true(crv_option_applies(crv_option_find(key), method, NULL));
+            }
+            assert_int_equal(*text, 0); /* nothing was left over */
+        }
+    }
+    crv_options o = fixture_options("hbao");
+    assert_int_equal(crv_options_preset(&o, CRV_PRESET_LOW), CRV_OK);
+    assert_int_equal(o.directions, 4);
+    assert_int_equal(crv_options_preset(&o, (crv_preset)9), CRV_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(crv_options_preset(NULL, CRV_PRESET_LOW),
+                     CRV_ERROR_INVALID_ARGUMENT);
+    assert_null(crv_preset_name((crv_preset)-1));
+}
+
 static void misspellings_find_the_nearest_name(void **state)
 {
     (void)state;
@@ -189,6 +228,7 @@ int main(void)
         cmocka_unit_test(bad_text_is_refused_with_a_reason),
         cmocka_unit_test(unread_options_are_reported),
         cmocka_unit_test(options_are_checked),
+        cmocka_unit_test(presets_are_sound),
         cmocka_unit_test(misspellings_find_the_nearest_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -52,12 +52,21 @@ typedef enum crv_normal_space {
     CRV_NORMAL_WORLD = 1 /* turned to view space by the camera's world_to_view */
 } crv_normal_space;
 
+/* What depth layers mean to the methods that march or test points. */
+typedef enum crv_layers {
+    CRV_LAYERS_SURFACES = 0, /* every layer may block what lies behind it; nothing is
+                                known of thickness */
+    CRV_LAYERS_SOLID = 1 /* layers come in pairs, 0 and 1, 2 and 3: the front and the back
+                            of a solid, which blocks in between */
+} crv_layers;
+
 /* Sizes of a G-buffer. Fill it with crv_gbuffer_desc_init(), then change what differs. */
 typedef struct crv_gbuffer_desc {
     size_t struct_size; /* set by crv_gbuffer_desc_init() */
     int32_t width;      /* px, of all buffers, guard band included; 1 to CRV_MAX_SIZE */
     int32_t height;     /* px */
     int32_t layers;     /* 1 to CRV_MAX_LAYERS; layer 0 is what the camera sees */
+    crv_layers layer_kind; /* default CRV_LAYERS_SURFACES */
     /* Guard band: so many px on each side are read as occluders but get no result. 0 or
      * more; the rectangle that is left must not be empty. */
     int32_t guard_left, guard_top, guard_right, guard_bottom;
@@ -109,6 +118,47 @@ CRV_API crv_status crv_gbuffer_set_depth(crv_gbuffer *gbuffer, int32_t layer,
  */
 CRV_API crv_status crv_gbuffer_set_normals(crv_gbuffer *gbuffer, const crv_image *image,
                                            crv_normal_space space);
+
+/*
+ * An implicit surface in view space: the value at a point, >= 0 outside and on the
+ * surface, < 0 inside, and its gradient in gradient[3]. Called from several threads at
+ * once during a run.
+ */
+typedef float (*crv_implicit_fn)(void *user, const float point_view[3],
+                                 float gradient[3]);
+
+/* Adds an implicit surface to the frame, for the methods that test points (vao,
+ * containment; see crv_characteristic). function NULL removes it. user is handed to it;
+ * not owned. Takes the place of a height field. Forgotten with the next camera. Errors:
+ * NOT_READY, INVALID_ARGUMENT. */
+CRV_API crv_status crv_gbuffer_set_implicit(crv_gbuffer *gbuffer,
+                                            crv_implicit_fn function, void *user);
+
+/* What lies beyond the edge of a height map. */
+typedef enum crv_wrap { CRV_WRAP_REPEAT = 0, CRV_WRAP_CLAMP = 1 } crv_wrap;
+
+/*
+ * Relief that the mesh does not have: a height field over the tangent plane of every
+ * pixel. Images are the G-buffer's size but for height, which may have any; they are read
+ * during the call only.
+ */
+typedef struct crv_height_field {
+    crv_image uv; /* 2 channels: texture coordinates, u to the right and v down over the
+                     map, 0 to 1; NaN where a pixel has none */
+    crv_image
+        tangent; /* 3 channels, view space: change of the point with u, scene units */
+    crv_image bitangent; /* 3 channels: the same with v */
+    crv_image height;    /* 1 channel */
+    float scale; /* scene units for a height of 1, along the surface's outer normal;
+                    finite */
+    crv_wrap wrap;
+} crv_height_field;
+
+/* Adds a height field to the frame, for vao and containment; memory for it is taken at
+ * the first call. NULL removes it. Takes the place of an implicit surface. Forgotten with
+ * the next camera. Errors: NOT_READY, INVALID_ARGUMENT, OUT_OF_MEMORY. */
+CRV_API crv_status crv_gbuffer_set_height_field(crv_gbuffer *gbuffer,
+                                                const crv_height_field *field);
 
 /* Writes a layer as planar depth, background as +INFINITY, to a one-channel image of the
  * G-buffer's size. Errors: NOT_READY, INVALID_ARGUMENT. */

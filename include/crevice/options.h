@@ -43,6 +43,22 @@ typedef enum crv_attenuation {
              Bavoil, Sainz, Dimitrov 2008, read literally */
 } crv_attenuation;
 
+/* What vao divides the open length of its pipes by. */
+typedef enum crv_normaliser {
+    CRV_NORMALISER_WEIGHTED =
+        0, /* the length of the chords: weighted importance sampling */
+    CRV_NORMALISER_ANALYTIC = 1 /* the exact volume of the tangent sphere */
+} crv_normaliser;
+
+/* What tells inside from outside, for the methods that test points. */
+typedef enum crv_characteristic {
+    CRV_CHARACTERISTIC_PRODUCT =
+        0, /* outside both the depth buffer and the G-buffer's height
+              field or implicit surface, where it has one */
+    CRV_CHARACTERISTIC_DEPTH = 1, /* the depth buffer alone */
+    CRV_CHARACTERISTIC_FIELD = 2  /* the height field or implicit surface alone */
+} crv_characteristic;
+
 /* A method, one of the registry. Static storage. */
 typedef struct crv_method {
     const char *name;  /* "hbao" */
@@ -60,6 +76,19 @@ typedef struct crv_filter {
     const char *paper;
     const char *const *options; /* keys of the options that it reads, NULL-terminated */
 } crv_filter;
+
+/* Sets of options that each method brings, named for what they cost. */
+typedef enum crv_preset {
+    CRV_PRESET_LOW = 0,
+    CRV_PRESET_MEDIUM = 1, /* the defaults of crv_options_init() */
+    CRV_PRESET_HIGH = 2,
+    CRV_PRESET_ULTRA = 3,
+    CRV_PRESET_PAPER = 4 /* the numbers of the main figure of the method's paper */
+} crv_preset;
+#define CRV_PRESET_COUNT 5
+
+/* "low", "medium", "high", "ultra", "paper"; NULL for another number. */
+CRV_API const char *crv_preset_name(crv_preset preset);
 
 /* The registries: index in [0, count), NULL beyond; find returns NULL for an unknown
  * name. */
@@ -86,6 +115,17 @@ typedef struct crv_options {
     float bias_deg;     /* raises the tangent: occluders lower than this over the surface
                            are ignored */
     crv_attenuation attenuation;
+    int32_t normal_rays; /* Nn, per direction */
+    int32_t
+        growing_sphere; /* hsao deflects only towards occluders nearer than the step */
+    int32_t samples;    /* n: points, lines or pipes */
+    int32_t bands;      /* alchemy: levels of detail of the sample count */
+    float band_px;      /* alchemy: projected radius from which all samples are taken */
+    float alchemy_bias; /* beta of eq. 10 */
+    float alchemy_eps;  /* eps of eq. 10, in radii squared */
+    crv_normaliser normaliser; /* vao */
+    crv_characteristic characteristic;
+    int32_t rescale;     /* ssao: doubles A, so that a wall is white */
     float max_radius_px; /* the projected radius is sampled no farther than this; 0: no
                             cap */
     float intensity;     /* A' = max(0, 1 - intensity (1 - A))^contrast */
@@ -103,6 +143,14 @@ typedef struct crv_options {
  * known one, or no such method (options untouched). */
 CRV_API crv_status crv_options_init(crv_options *options, size_t struct_size,
                                     const char *method);
+
+/* Sets what a preset of options->method sets, and leaves the rest. Sets no radius.
+ * CRV_ERROR_INVALID_ARGUMENT: options is NULL or not initialised, or no such preset. */
+CRV_API crv_status crv_options_preset(crv_options *options, crv_preset preset);
+
+/* What that is, as "key=value key=value". NULL where an argument is unknown. Static
+ * storage. */
+CRV_API const char *crv_preset_text(const crv_method *method, crv_preset preset);
 
 typedef enum crv_option_type {
     CRV_OPTION_FLOAT = 0,

@@ -16,6 +16,8 @@ typedef struct crv__frame {
     const crv__plane *normal;      /* 3 planes, view space, facing the camera */
     const crv__noise_texel *noise; /* noise_size * noise_size */
     const float *directions;       /* (cos, sin) of 2 pi k / directions */
+    const float *pattern;          /* the method's points, four floats each; NULL: none */
+    const struct crv__field *field; /* NULL: none */
 } crv__frame;
 
 typedef struct crv__vec3 {
@@ -46,6 +48,14 @@ static inline crv__vec3 crv__normal_at(const crv__frame *f, int32_t x, int32_t y
     return (crv__vec3){*crv__plane_at(&f->normal[0], x, y),
                        *crv__plane_at(&f->normal[1], x, y),
                        *crv__plane_at(&f->normal[2], x, y)};
+}
+
+/* A jitter in [0, 1) for the k-th of several strata walked at one pixel: the texel's own,
+ * moved on by the golden ratio, so that all k of all texels cover the interval evenly. */
+static inline float crv__stratum(const crv__noise_texel *noise, int32_t k)
+{
+    const float x = 0.5f + 0.5f * noise->beta + 0.618034f * (float)k;
+    return x - floorf(x);
 }
 
 static inline const crv__noise_texel *crv__noise_at(const crv__frame *f, int32_t x,

@@ -30,6 +30,10 @@ crv_status crv__gbuffer_desc_check(const crv_logger *logger, const crv_gbuffer_d
     if (desc->layers < 1 || desc->layers > CRV_MAX_LAYERS)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "gbuffer: %d layers; 1 to %d", desc->layers, CRV_MAX_LAYERS);
+    if (desc->layer_kind != CRV_LAYERS_SURFACES && desc->layer_kind != CRV_LAYERS_SOLID)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "gbuffer: layer kind %d is neither surfaces nor solid",
+                         (int)desc->layer_kind);
     const int32_t guards[4] = {desc->guard_left, desc->guard_right, desc->guard_top,
                                desc->guard_bottom};
     for (int i = 0; i < 4; i++) {
@@ -95,6 +99,7 @@ void crv_gbuffer_destroy(crv_gbuffer *g)
         crv__plane_destroy(&g->depth[i], allocator);
     for (int i = 0; i < 3; i++)
         crv__plane_destroy(&g->normal[i], allocator);
+    crv__height_field_release(g);
     crv__release(allocator, g, 1, sizeof *g);
 }
 
@@ -108,7 +113,7 @@ crv_status crv_gbuffer_set_camera(crv_gbuffer *g, const crv_camera *camera)
     g->camera = *camera;
     g->has_camera = 1;
     g->has_depth = 0;
-    g->has_normals = g->normals_ready = 0;
+    g->has_normals = g->normals_ready = g->has_field = 0;
     return CRV_OK;
 }
 
@@ -205,6 +210,7 @@ crv_status crv__gbuffer_prepare(crv_gbuffer *g)
             missing);
     if (!g->normals_ready) {
         crv__run_parallel(g->context, (uint32_t)g->desc.height, finish_row, g);
+        crv__height_field_finish(g);
         g->normals_ready = 1;
     }
     return CRV_OK;

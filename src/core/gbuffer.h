@@ -3,6 +3,7 @@
 #define CRV_CORE_GBUFFER_H
 
 #include "core/context.h"
+#include "core/field.h"
 #include "core/image.h"
 #include "crevice/gbuffer.h"
 #include "shared/params.h"
@@ -17,6 +18,8 @@ struct crv_gbuffer {
     int32_t normals_ready; /* normal[] holds what estimators read */
     crv__plane depth[CRV_MAX_LAYERS];
     crv__plane normal[3];
+    int32_t has_field;
+    crv__field field; /* its planes live as long as the G-buffer */
 };
 
 /* INVALID_ARGUMENT with a line unless the sizes make sense. */
@@ -28,6 +31,11 @@ crv_status crv__gbuffer_prepare(crv_gbuffer *gbuffer);
 
 /* Fills the members of params that describe buffers and camera. */
 void crv__gbuffer_params(const crv_gbuffer *gbuffer, crv__params *params);
+
+/* Makes the relief's normals from the frame's final ones; frees the field's planes
+ * (height_field.c). */
+void crv__height_field_finish(crv_gbuffer *gbuffer);
+void crv__height_field_release(crv_gbuffer *gbuffer);
 
 /* Turns row y of normal[] into unit normals that face the camera, reconstructed from
  * depth where there are none (normals.c). */

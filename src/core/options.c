@@ -10,6 +10,8 @@
 
 static const char *const FALLOFFS[] = {"none",        "linear",  "sqrt", "cubic",
                                        "exponential", "alchemy", NULL};
+static const char *const NORMALISERS[] = {"weighted", "analytic", NULL};
+static const char *const CHARACTERISTICS[] = {"product", "depth", "field", NULL};
 static const char *const ATTENUATIONS[] = {"slab", "horizon", NULL};
 
 /* Who reads an option. */
@@ -61,6 +63,29 @@ static const row TABLE[] = {
            "slab: each occluder weighs the elevations that it is first to block; "
            "horizon: the "
            "highest occluder weighs its whole slice"),
+    INT(normal_rays, "", 1, 0, 64, SOME_METHODS,
+        "Nn: rays above the horizon (hsao) or over the hemisphere (raymarch) for each "
+        "direction"),
+    BOOL(growing_sphere, 0, SOME_METHODS,
+         "deflect only towards occluders that are nearer than the step has come"),
+    INT(samples, "", 12, 1, 4096, SOME_METHODS,
+        "n: points, lines or pipes; containment begins with 32, ssao with 16"),
+    INT(bands, "", 1, 1, 16, SOME_METHODS,
+        "levels of detail: small projected radii take 1/bands of the samples, and so on"),
+    FLOAT(band_px, "px", 96, 1, CRV_MAX_SIZE, SOME_METHODS,
+          "projected radius from which on all samples are taken"),
+    FLOAT(
+        alchemy_bias, "", 1e-4, 0, 1, SOME_METHODS,
+        "beta: how far an occluder must rise over the surface, as a share of the depth"),
+    FLOAT(alchemy_eps, "radius^2", 4e-4, 1e-9, 1, SOME_METHODS,
+          "eps: keeps the nearest occluders from dividing by zero"),
+    CHOICE(normaliser, CRV_NORMALISER_WEIGHTED, NORMALISERS, SOME_METHODS,
+           "weighted: by the chords that were sampled; analytic: by the sphere's volume"),
+    CHOICE(
+        characteristic, CRV_CHARACTERISTIC_PRODUCT, CHARACTERISTICS, SOME_METHODS,
+        "what tells inside from outside: the depth buffer, the height field or implicit "
+        "surface, or both"),
+    BOOL(rescale, 0, SOME_METHODS, "double the result, so that a flat wall is white"),
     FLOAT(max_radius_px, "px", 0, 0, CRV_MAX_SIZE, SOME_METHODS,
           "samples no farther than this from the pixel; 0: no limit"),
     FLOAT(intensity, "", 1, 0, 100, EVERY_METHOD,
@@ -180,7 +205,7 @@ crv_status crv_options_init(crv_options *options, size_t struct_size, const char
     options->filter = crv_filter_find("bilateral13");
     for (int i = 0; i < ROW_COUNT; i++)
         crv__options_put(options, &TABLE[i].info, TABLE[i].info.default_value);
-    return CRV_OK;
+    return crv_options_preset(options, CRV_PRESET_MEDIUM);
 }
 
 crv_status crv__option_check(const crv_option *option, double value,

@@ -3,9 +3,11 @@
 #include "core/options.h"
 
 #include "base/log.h"
+#include "core/registry.h"
 
 #include <ctype.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -140,4 +142,36 @@ crv_status crv_options_set(crv_options *options, const char *key, const char *va
     if (status == CRV_OK)
         crv__options_put(options, option, number);
     return status;
+}
+
+const char *crv_preset_name(crv_preset preset)
+{
+    static const char *const NAMES[CRV_PRESET_COUNT] = {"low", "medium", "high", "ultra",
+                                                        "paper"};
+    return (int)preset >= 0 && preset < CRV_PRESET_COUNT ? NAMES[preset] : NULL;
+}
+
+const char *crv_preset_text(const crv_method *method, crv_preset preset)
+{
+    if (!method || !crv_preset_name(preset))
+        return NULL;
+    return crv__method_of(method)->presets[preset];
+}
+
+crv_status crv_options_preset(crv_options *options, crv_preset preset)
+{
+    if (!options || options->struct_size != sizeof *options || !options->method
+        || !crv_preset_name(preset))
+        return CRV_ERROR_INVALID_ARGUMENT;
+    const char *text = crv_preset_text(options->method, preset);
+    char key[32], value[32];
+    int length = 0;
+    /* The texts are the methods' own, and a test reads every one of them. */
+    while (sscanf(text, " %31[^=]=%31s%n", key, value, &length) == 2) {
+        crv_status status = crv_options_set(options, key, value, NULL);
+        if (status)
+            return status;
+        text += length;
+    }
+    return CRV_OK;
 }

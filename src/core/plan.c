@@ -22,12 +22,19 @@ struct crv_plan {
     crv__params params;
     crv__noise_texel *noise;
     float *directions;
+    float *pattern;
     crv__plane estimate, spare;
 };
 
 static size_t noise_count(const crv_plan *plan)
 {
     return (size_t)plan->options.noise_size * (size_t)plan->options.noise_size;
+}
+
+static size_t pattern_count(const crv_plan *plan)
+{
+    const crv__method *method = crv__method_of(plan->options.method);
+    return method->pattern_count ? (size_t)method->pattern_count(&plan->options) : 0;
 }
 
 static int32_t wrapped(int64_t value, int32_t size)
@@ -57,25 +64,42 @@ static void fill_params(crv_plan *plan)
         wrapped((int64_t)plan->desc.origin_y - plan->desc.guard_top, o->noise_size);
     p->intensity = o->intensity;
     p->contrast = o->contrast;
+    p->layers_solid = plan->desc.layer_kind == CRV_LAYERS_SOLID;
+    p->normal_rays = o->normal_rays;
+    p->growing_sphere = o->growing_sphere;
+    p->samples = o->samples;
+    p->bands = o->bands;
+    p->band_px = o->band_px;
+    p->alchemy_bias = o->alchemy_bias;
+    p->alchemy_eps = o->alchemy_eps;
+    p->normaliser = (int32_t)o->normaliser;
+    p->rescale = o->rescale;
     p->filter_depth = o->filter_depth * o->radius;
     p->filter_slope = o->filter_slope;
 }
 
-/* Directions and noise; 0, or -1 where memory is out. */
+/* Directions, noise and the method's own points; 0, or -1 where memory is out. */
 static int fill_patterns(crv_plan *plan)
 {
     const crv_allocator *allocator = &plan->context->allocator;
+    const crv__method *method = crv__method_of(plan->options.method);
     const int32_t count = plan->options.directions;
     plan->directions = crv__allocate(allocator, (size_t)count, 2 * sizeof(float));
     plan->noise = crv__allocate(allocator, noise_count(plan), sizeof *plan->noise);
     uint32_t *scratch = crv__allocate(allocator, noise_count(plan), sizeof *scratch);
-    const int done = plan->directions && plan->noise && scratch;
+    if (method->pattern_count)
+        plan->pattern = crv__allocate(allocator, pattern_count(plan), 4 * sizeof(float));
+    const int done = plan->directions && plan->noise && scratch
+                     && (plan->pattern || !method->pattern_count);
     if (done) {
         for (int32_t k = 0; k < count; k++) {
             plan->directions[2 * k] = (float)cos(2 * PI * k / count);
             plan->directions[2 * k + 1] = (float)sin(2 * PI * k / count);
         }
-        crv__noise_fill(plan->noise, plan->options.noise_size, 2 * PI / count,
+        if (method->pattern_count)
+            method->pattern_fill(&plan->options, plan->pattern);
+        crv__noise_fill(plan->noise, plan->options.noise_size,
+                        method->pattern_count ? 2 * PI : 2 * PI / count,
                         plan->options.seed, scratch);
     }
     crv__release(allocator, scratch, noise_count(plan), sizeof *scratch);
@@ -144,15 +168,17 @@ void crv_plan_destroy(crv_plan *plan)
     crv__release(allocator, plan->noise, noise_count(plan), sizeof *plan->noise);
     crv__release(allocator, plan->directions, (size_t)plan->options.directions,
                  2 * sizeof(float));
+    crv__release(allocator, plan->pattern, pattern_count(plan), 4 * sizeof(float));
     crv__release(allocator, plan, 1, sizeof *plan);
 }
 
 static int same_desc(const crv_gbuffer_desc *a, const crv_gbuffer_desc *b)
 {
     return a->width == b->width && a->height == b->height && a->layers == b->layers
-           && a->guard_left == b->guard_left && a->guard_top == b->guard_top
-           && a->guard_right == b->guard_right && a->guard_bottom == b->guard_bottom
-           && a->origin_x == b->origin_x && a->origin_y == b->origin_y;
+           && a->layer_kind == b->layer_kind && a->guard_left == b->guard_left
+           && a->guard_top == b->guard_top && a->guard_right == b->guard_right
+           && a->guard_bottom == b->guard_bottom && a->origin_x == b->origin_x
+           && a->origin_y == b->origin_y;
 }
 
 static crv_status check_image(const crv_plan *plan, const char *what,
@@ -162,6 +188,15 @@ static crv_status check_image(const crv_plan *plan, const char *what,
     return crv__image_check(&plan->context->logger, what, image,
                             d->width - d->guard_left - d->guard_right,
                             d->height - d->guard_top - d->guard_bottom, 1, writes);
+}
+
+/* Which characteristic functions this frame has and the options ask for. A field alone
+ * that is not there leaves everything outside. */
+static void select_characteristic(crv_plan *plan, int32_t has_field)
+{
+    const crv_characteristic wanted = plan->options.characteristic;
+    plan->params.use_depth = wanted != CRV_CHARACTERISTIC_FIELD;
+    plan->params.use_field = wanted != CRV_CHARACTERISTIC_DEPTH && has_field;
 }
 
 /* Checks the arguments of a run and makes the frame. */
@@ -179,8 +214,14 @@ static crv_status begin(crv_plan *plan, crv_gbuffer *g, const crv_image *result,
     if (status)
         return status;
     crv__gbuffer_params(g, &plan->params);
-    *frame =
-        (crv__frame){&plan->params, g->depth, g->normal, plan->noise, plan->directions};
+    *frame = (crv__frame){.params = &plan->params,
+                          .depth = g->depth,
+                          .normal = g->normal,
+                          .noise = plan->noise,
+                          .directions = plan->directions,
+                          .pattern = plan->pattern,
+                          .field = g->has_field ? &g->field : NULL};
+    select_characteristic(plan, g->has_field);
     return CRV_OK;
 }
 

@@ -11,6 +11,15 @@ typedef struct crv__method {
     /* The specification: raw accessibility of the pixel (x, y) of the buffers, which is
      * not background; may leave [0, 1] by its sampling error. */
     float (*accessibility)(const crv__frame *frame, int32_t x, int32_t y);
+    int32_t reads_field; /* 0 or 1: takes height fields and implicit surfaces */
+    /* The method's sample pattern: how many points of four floats, and what they are.
+     * Methods with a pattern are turned by the noise through the full circle, the others
+     * through one direction's sector. NULL: none. */
+    int32_t (*pattern_count)(const crv_options *options);
+    void (*pattern_fill)(const crv_options *options, float *points);
+    /* What crv_options_preset() sets, as "key=value key=value", in the order of
+     * crv_preset. */
+    const char *presets[CRV_PRESET_COUNT];
 } crv__method;
 
 typedef struct crv__filter {

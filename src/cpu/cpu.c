@@ -28,9 +28,9 @@ static float estimate_pixel(const tiles *t, int32_t x, int32_t y)
 {
     const crv__frame *frame = t->work->frame;
     const crv__params *p = frame->params;
-    const float raw = clamped(t->method->accessibility(frame, x, y));
+    const float raw = t->method->accessibility(frame, x, y);
     if (p->intensity == 1 && p->contrast == 1)
-        return raw;
+        return clamped(raw);
     return clamped(powf(fmaxf(0, 1 - p->intensity * (1 - raw)), p->contrast));
 }
 

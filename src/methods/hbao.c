@@ -113,4 +113,7 @@ const crv__method crv__method_hbao = {
              "Bavoil, Sainz, Dimitrov 2008: Image-Space Horizon-Based Ambient Occlusion",
          .weighting = CRV_WEIGHTING_UNIFORM,
          .options = OPTIONS},
-    .accessibility = accessibility};
+    .accessibility = accessibility,
+    .presets = {"directions=4 steps=4", "directions=8 steps=8", "directions=12 steps=12",
+                "directions=24 steps=24",
+                "directions=8 steps=8 falloff=linear filter=none"}};

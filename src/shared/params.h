@@ -34,11 +34,23 @@ typedef struct crv__params {
     float intensity, contrast;
     float filter_depth;   /* scene units */
     int32_t filter_slope; /* 0 or 1 */
+
+    int32_t layers_solid; /* 0 or 1 */
+    int32_t normal_rays, growing_sphere;
+    int32_t samples;
+
+    int32_t bands;
+    float band_px;
+    float alchemy_bias, alchemy_eps;
+
+    int32_t normaliser; /* crv_normaliser */
+    int32_t rescale;
+    int32_t use_depth, use_field; /* characteristic functions */
 } crv__params;
 
-_Static_assert(sizeof(crv__params) == 28 * 4, "no padding, a multiple of 16 bytes");
+_Static_assert(sizeof(crv__params) == 40 * 4, "no padding, a multiple of 16 bytes");
 _Static_assert(offsetof(crv__params, falloff) == 12 * 4, "layout shared with GLSL");
-_Static_assert(offsetof(crv__params, filter_slope) == 27 * 4, "layout shared with GLSL");
+_Static_assert(offsetof(crv__params, use_field) == 39 * 4, "layout shared with GLSL");
 
 /* One texel of the noise tile. */
 typedef struct crv__noise_texel {

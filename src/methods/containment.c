@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Ambient occlusion by containment tests.
+ * Laszlo Szirmay-Kalos, Tamas Umenhoffer, Balazs Toth, Laszlo Szecsi, Mateu Sbert:
+ * Volumetric Ambient Occlusion for Real-Time Rendering and Games, IEEE CG&A 2010.
+ *
+ * A ray that meets the surface at most once within the radius is free up to r exactly
+ * where its point at r lies outside. With mu = 1 - W, A = 1/pi Int Int mu'(r) I(P + w r)
+ * cos dr dw  ~  1/n Sum I(P + r_i w_i),   (eq. 4, 5) directions w_i with cosine density,
+ * r_i = mu^-1(xi_i).
+ *
+ * mu is monotone for every falloff but `alchemy`, whose W first rises from 0 to 1 (mu
+ * falls from 1 to 0) up to r = u: there half of the points integrate the falling part,
+ * with negative weight, and the start mu(0) = 1 is added.
+ */
+#include "core/pattern.h"
+#include "core/registry.h"
+#include "methods/characteristic.h"
+
+#include <math.h>
+
+static float accessibility(const crv__frame *f, int32_t x, int32_t y)
+{
+    const crv__params *p = f->params;
+    const crv__noise_texel *noise = crv__noise_at(f, x, y);
+    const crv__site site = crv__site_at(f, x, y);
+    crv__vec3 tangent, bitangent;
+    crv__tangents(site.n, &tangent, &bitangent);
+    float sum = p->falloff == CRV_FALLOFF_ALCHEMY ? 1 : 0;
+    for (int32_t i = 0; i < p->samples; i++) {
+        const float *point =
+            f->pattern + 4 * i; /* r_i * direction in radii, and its weight */
+        const float t = point[0] * noise->cos_alpha - point[1] * noise->sin_alpha;
+        const float b = point[0] * noise->sin_alpha + point[1] * noise->cos_alpha;
+        const crv__vec3 offset = {t * tangent.x + b * bitangent.x + point[2] * site.n.x,
+                                  t * tangent.y + b * bitangent.y + point[2] * site.n.y,
+                                  t * tangent.z + b * bitangent.z + point[2] * site.n.z};
+        if (crv__outside(f, &site, crv__add_scaled(site.lifted, offset, p->radius)))
+            sum += point[3];
+    }
+    return sum;
+}
+
+/* mu^-1(xi) in radii for the monotone falloffs. */
+static double inverse_membership(const crv_options *o, double xi)
+{
+    switch (o->falloff) {
+    case CRV_FALLOFF_NONE:
+        return 1;
+    case CRV_FALLOFF_LINEAR:
+        return xi;
+    case CRV_FALLOFF_SQRT:
+        return xi * xi;
+    case CRV_FALLOFF_CUBIC:
+        return cbrt(xi);
+    case CRV_FALLOFF_EXPONENTIAL: /* the rest of the mass lies at the radius */
+        return o->tau > 0 ? fmin(1, -log(1 - xi) / (double)o->tau) : 1;
+    case CRV_FALLOFF_ALCHEMY: /* the rising part: mu = 1 - u/q from q = u on */
+        return fmin(1, (double)o->u / (1 - xi));
+    }
+    return 1;
+}
+
+static int32_t pattern_count(const crv_options *options)
+{
+    return options->samples;
+}
+
+static void pattern_fill(const crv_options *options, float *points)
+{
+    const int32_t count = options->samples;
+    const int32_t falling = options->falloff == CRV_FALLOFF_ALCHEMY ? count / 2 : 0;
+    crv__pattern_cube(points, count, options->seed);
+    for (int32_t i = 0; i < count; i++) {
+        float *point = points + 4 * i;
+        const int is_falling = i % 2 == 1 && falling > 0;
+        double x, y;
+        crv__concentric((double)point[0], (double)point[1], &x, &y);
+        const double z = sqrt(fmax(0, 1 - x * x - y * y)); /* cosine density (Malley) */
+        const double xi = (double)point[2];
+        const double r =
+            is_falling ? xi * (double)options->u : inverse_membership(options, xi);
+        point[0] = (float)(r * x);
+        point[1] = (float)(r * y);
+        point[2] = (float)(r * z);
+        point[3] = is_falling ? -1.0f / (float)falling : 1.0f / (float)(count - falling);
+    }
+}
+
+static const char *const OPTIONS[] = {"samples", "falloff",        "tau",
+                                      "u",       "characteristic", NULL};
+
+const crv__method crv__method_containment = {
+    .info =
+        {.name = "containment",
+         .title = "Ambient occlusion by containment tests",
+         .paper =
+             "Szirmay-Kalos, Umenhoffer, Toth, Szecsi, Sbert 2010: Volumetric Ambient "
+             "Occlusion for Real-Time Rendering and Games",
+         .weighting = CRV_WEIGHTING_COSINE,
+         .options = OPTIONS},
+    .reads_field = 1,
+    .accessibility = accessibility,
+    .pattern_count = pattern_count,
+    .pattern_fill = pattern_fill,
+    .presets = {"samples=12", "samples=32", "samples=96", "samples=512",
+                "samples=8 falloff=none filter=box4"}};

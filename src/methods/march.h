@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: MIT */
+/* What the methods share that walk through view space and look points up in the depth
+ * buffer. */
+#ifndef CRV_METHODS_MARCH_H
+#define CRV_METHODS_MARCH_H
+
+#include "core/frame.h"
+
+static inline crv__vec3 crv__add_scaled(crv__vec3 a, crv__vec3 b, float scale)
+{
+    return (crv__vec3){a.x + b.x * scale, a.y + b.y * scale, a.z + b.z * scale};
+}
+
+static inline float crv__length(crv__vec3 v)
+{
+    return sqrtf(crv__dot(v, v));
+}
+
+/* Two unit vectors that span the plane of n, turned as little as possible from the
+ * image's axes: neighbouring pixels of a smooth surface get neighbouring frames. n.z >
+ * -1. */
+static inline void crv__tangents(crv__vec3 n, crv__vec3 *t, crv__vec3 *b)
+{
+    const float scale = 1 / (1 + fmaxf(n.z, -0.9999f)), xy = -n.x * n.y * scale;
+    *t = (crv__vec3){1 - n.x * n.x * scale, xy, -n.x};
+    *b = (crv__vec3){xy, 1 - n.y * n.y * scale, -n.y};
+}
+
+/*
+ * P raised along n by one pixel's footprint at its depth: point-sampled depth of a
+ * slanted surface is a staircase, and this is the height of its steps (2008a, eq. 13).
+ */
+static inline crv__vec3 crv__lift(const crv__params *p, crv__vec3 P, crv__vec3 n)
+{
+    const float focal = fminf(p->fx, p->fy);
+    return crv__add_scaled(P, n, (p->orthographic ? 1 : -P.z) / focal);
+}
+
+/* The pixel that a view-space point falls on; 0 where it is behind the eye or off the
+ * buffers. */
+static inline int crv__texel_of(const crv__params *p, crv__vec3 Q, int32_t *u, int32_t *v)
+{
+    const float unit = p->orthographic ? 1 : -Q.z;
+    if (!(unit > 0))
+        return 0;
+    const float x = p->cx + p->fx * Q.x / unit, y = p->cy - p->fy * Q.y / unit;
+    if (!(x >= 0 && x < (float)p->width && y >= 0 && y < (float)p->height))
+        return 0;
+    *u = (int32_t)x;
+    *v = (int32_t)y;
+    return 1;
+}
+
+/*
+ * Whether something blocks the point Q as seen from `origin`: a surface less than the
+ * radius away from the origin with Q behind it and, where layers come in pairs, in front
+ * of its back. *I is the surface point at Q's pixel, read at the texel's centre and never
+ * interpolated.
+ */
+static inline int crv__blocked(const crv__frame *f, crv__vec3 origin, crv__vec3 Q,
+                               crv__vec3 *I)
+{
+    const crv__params *p = f->params;
+    int32_t u, v;
+    if (!crv__texel_of(p, Q, &u, &v))
+        return 0;
+    for (int32_t layer = 0; layer < p->layers; layer += 1 + p->layers_solid) {
+        const float d = *crv__plane_at(&f->depth[layer], u, v);
+        if (!(-Q.z > d)) /* in front of it, or background */
+            continue;
+        if (p->layers_solid && layer + 1 < p->layers
+            && !(-Q.z < *crv__plane_at(&f->depth[layer + 1], u, v)))
+            continue;
+        *I = crv__unproject(p, u, v, d);
+        const crv__vec3 to = crv__sub(*I, origin);
+        if (crv__dot(to, to) < p->radius * p->radius)
+            return 1;
+    }
+    return 0;
+}
+
+/* Marches from `origin` along the unit vector `direction` in `steps` jittered steps over
+ * the radius. Returns the falloff's weight of the first thing in the way; 0 where there
+ * is none. */
+float crv__march(const crv__frame *f, crv__vec3 origin, crv__vec3 direction, float beta);
+
+#endif

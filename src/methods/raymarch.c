@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Ray marching through the depth buffer: the baseline of Dimitrov, Bavoil, Sainz 2008
+ * (Figure 12) and of Bavoil, Sainz, Dimitrov 2008 (Figure 1).
+ *
+ * Nd * Nn rays with cosine density over the whole hemisphere: Nd azimuths, and on each Nn
+ * heights z with z^2 stratified uniformly in [0, 1], so that every ray counts alike. Rays
+ * are marched in Ns steps.
+ */
+#include "core/registry.h"
+#include "methods/march.h"
+
+static float accessibility(const crv__frame *f, int32_t x, int32_t y)
+{
+    const crv__params *p = f->params;
+    const crv__noise_texel *noise = crv__noise_at(f, x, y);
+    const crv__vec3 n = crv__normal_at(f, x, y);
+    const crv__vec3 P = crv__unproject(p, x, y, *crv__plane_at(&f->depth[0], x, y));
+    const crv__vec3 origin = crv__lift(p, P, n);
+    crv__vec3 tangent, bitangent;
+    crv__tangents(n, &tangent, &bitangent);
+
+    const int32_t rays = p->normal_rays > 0 ? p->normal_rays : 1;
+    float occlusion = 0;
+    for (int32_t i = 0; i < p->directions; i++) {
+        const float c = f->directions[2 * i], s = f->directions[2 * i + 1];
+        const float along_t = c * noise->cos_alpha - s * noise->sin_alpha;
+        const float along_b = s * noise->cos_alpha + c * noise->sin_alpha;
+        for (int32_t k = 0; k < rays; k++) {
+            const float stratum = ((float)k + crv__stratum(noise, i)) / (float)rays;
+            const float z = sqrtf(stratum), xy = sqrtf(1 - stratum);
+            const crv__vec3 direction = {
+                z * n.x + xy * (along_t * tangent.x + along_b * bitangent.x),
+                z * n.y + xy * (along_t * tangent.y + along_b * bitangent.y),
+                z * n.z + xy * (along_t * tangent.z + along_b * bitangent.z)};
+            occlusion += crv__march(f, origin, direction, noise->beta);
+        }
+    }
+    return 1 - occlusion / (float)(p->directions * rays);
+}
+
+static const char *const OPTIONS[] = {"falloff", "tau",         "u", "directions",
+                                      "steps",   "normal_rays", NULL};
+
+const crv__method crv__method_raymarch = {
+    .info =
+        {.name = "raymarch",
+         .title = "Ray marching in the depth buffer",
+         .paper =
+             "Dimitrov, Bavoil, Sainz 2008: Horizon-Split Ambient Occlusion (baseline)",
+         .weighting = CRV_WEIGHTING_COSINE,
+         .options = OPTIONS},
+    .accessibility = accessibility,
+    .presets = {
+        "directions=4 steps=8 normal_rays=1", "directions=8 steps=8 normal_rays=4",
+        "directions=12 steps=12 normal_rays=6", "directions=24 steps=24 normal_rays=8",
+        "directions=8 steps=8 normal_rays=4 falloff=linear filter=none"}};
