@@ -173,7 +173,8 @@ static const char *find_depth(const char *path, const io_image *probed,
         const char *name = probed->channels[i].name;
         const int rank = depth_rank(probed, name);
         /* Further layers of ours are no rivals of the first. */
-        if (!strncasecmp(name, "layer", 5) && strlen(name) == 8)
+        if (strlen(name) == 8
+            && (!strncasecmp(name, "layer", 5) || !strncasecmp(name, "solid", 5)))
             continue;
         if (rank < best_rank) {
             second = best;
@@ -199,6 +200,7 @@ static int choose_depth(const char *path, const io_image *probed, const char *wa
     out->depth[0] =
         wanted ? find_requested_depth(probed, wanted) : find_depth(path, probed, log);
     out->layers = 1;
+    out->layer_kind = CRV_LAYERS_SURFACES;
     if (!out->depth[0] && wanted)
         return io__fail_channel(log, path, wanted, probed);
     if (!out->depth[0]) {
@@ -211,9 +213,12 @@ static int choose_depth(const char *path, const io_image *probed, const char *wa
     }
     if (strcasecmp(out->depth[0], "Z"))
         return 0;
+    const bool solid = find_name(probed, "solid2.Z") && !find_name(probed, "layer2.Z");
+    out->layer_kind = solid ? CRV_LAYERS_SOLID : CRV_LAYERS_SURFACES;
     while (out->layers < CRV_MAX_LAYERS) {
         char name[32];
-        snprintf(name, sizeof name, "layer%d.Z", (int)out->layers + 1);
+        snprintf(name, sizeof name, "%s%d.Z", solid ? "solid" : "layer",
+                 (int)out->layers + 1);
         const char *layer = find_name(probed, name);
         if (!layer)
             break;
@@ -320,9 +325,10 @@ int io__choose_passes(const char *path, const io_image *probed,
     if (choose_depth(path, probed, request->depth, out, log)
         || choose_normals(path, probed, request->normal, out, log))
         return -1;
-    io__info(log, path, "depth: \"%s\" (%d layer%s); normals: %s%s%s", out->depth[0],
-             (int)out->layers, out->layers > 1 ? "s" : "", out->normal[0] ? "\"" : "",
-             out->normal[0] ? out->normal_base : "from depth",
+    io__info(log, path, "depth: \"%s\" (%d layer%s%s); normals: %s%s%s", out->depth[0],
+             (int)out->layers, out->layers > 1 ? "s" : "",
+             out->layer_kind == CRV_LAYERS_SOLID ? " of solids" : "",
+             out->normal[0] ? "\"" : "", out->normal[0] ? out->normal_base : "from depth",
              out->normal[0] ? "\"" : "");
     return 0;
 }

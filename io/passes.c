@@ -215,6 +215,7 @@ int io_frame_load(const char *path, const io_passes_request *request, io_frame *
         return -1;
     }
     io_image_free(&probed);
+    frame.desc.layer_kind = names.layer_kind;
     const bool given_normals = names.normal[0] != NULL;
     frame.camera = crv_camera_crop(&camera, frame.image.data_x, frame.image.data_y);
     frame.depth_format = settle_format(request);

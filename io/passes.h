@@ -44,11 +44,12 @@ typedef struct io_frame {
 
 /*
  * Loads a frame. Depth is found as Z, *.Z, *.Depth.Z, *.Depth.V, depth, ... (first match
- * in the order of the table in passes.c), further layers as layer2.Z to layer4.Z, normals
- * as N, Normal, *.Normal and the like with X Y Z or R G B. A PNG or PFM with one channel
- * is depth. Without metadata, vfov_rad or view_height: an error that says how to give it.
- * What was found and decided is logged as CRV_LOG_INFO lines. Returns 0, or -1 after an
- * error line.
+ * in the order of the table in passes.c), further layers as layer2.Z to layer4.Z, or
+ * solid2.Z to solid4.Z (then desc.layer_kind is CRV_LAYERS_SOLID), normals as N, Normal,
+ * *.Normal and the like with X Y Z or R G B. A PNG or PFM with one channel is depth.
+ * Without metadata, vfov_rad or view_height: an error that says how to give it. What was
+ * found and decided is logged as CRV_LOG_INFO lines. Returns 0, or -1 after an error
+ * line.
  */
 int io_frame_load(const char *path, const io_passes_request *request, io_frame *out,
                   const crv_logger *log);

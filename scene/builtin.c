@@ -11,11 +11,10 @@ typedef struct builtin {
     void (*build)(mesh *m, scene_view *view);
 } builtin;
 
-static const builtin builtins[] = {{"courtyard", builtin_courtyard},
-                                   {"corner", builtin_corner},
-                                   {"plane", builtin_plane},
-                                   {"sphere", builtin_sphere},
-                                   {"groove", builtin_groove}};
+static const builtin builtins[] = {
+    {"courtyard", builtin_courtyard}, {"corner", builtin_corner},
+    {"plane", builtin_plane},         {"sphere", builtin_sphere},
+    {"groove", builtin_groove},       {"relief", builtin_relief}};
 
 enum { BUILTIN_COUNT = sizeof builtins / sizeof *builtins };
 

@@ -14,6 +14,7 @@ void builtin_corner(mesh *m, scene_view *view);
 void builtin_plane(mesh *m, scene_view *view);
 void builtin_sphere(mesh *m, scene_view *view);
 void builtin_groove(mesh *m, scene_view *view);
+void builtin_relief(mesh *m, scene_view *view);
 
 /* Parts of the courtyard: gears on a housing with bolts and pipes, about 2.4 wide, front
  * along local +Z, standing on y = 0. */

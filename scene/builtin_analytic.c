@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Small scenes whose depth and occlusion are known in closed form.
+ * Small scenes: those whose depth and occlusion are known in closed form, and one for
+ * height maps.
  */
 #include "builtin.h"
 
@@ -56,4 +57,20 @@ void builtin_groove(mesh *m, scene_view *view)
     view->view_height = 6.0f;
     view->up[1] = 0.0f;
     view->up[2] = -1.0f;
+}
+
+/* For height maps: floor, wall and a ball of radius 1 between them, all without relief of
+ * their own. The map is 2 units large on the flats and about as large on the ball. */
+void builtin_relief(mesh *m, scene_view *view)
+{
+    place world = place_at(0, 0, 0);
+    uint32_t ball;
+    shape_quad(m, &world, v3(-12, 0, 8), v3(12, 0, 8), v3(12, 0, -2), v3(-12, 0, -2));
+    shape_quad(m, &world, v3(-12, 0, -2), v3(12, 0, -2), v3(12, 8, -2), v3(-12, 8, -2));
+    ball = (uint32_t)m->vertex_count;
+    shape_sphere(m, &world, v3(0, 1, 0), 1.0, 256);
+    for (uint32_t v = ball; v < m->vertex_count; v++)
+        mesh_set_uv(m, v, 4.0 * (double)m->uvs[2 * (size_t)v],
+                    2.0 * (double)m->uvs[2 * (size_t)v + 1]);
+    *view = perspective(v3(1.6, 2.6, 5.4), v3(0, 0.9, -0.4), 40);
 }

@@ -11,6 +11,10 @@
 
 #include <embree4/rtcore.h>
 
+typedef struct RTCRayQueryContext embree_context;
+
+#define EMBREE_SCENE_FLAG_FILTER RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS
+
 /* Finds the nearest hit; rh->hit.geomID stays RTC_INVALID_GEOMETRY_ID where there is
  * none. */
 static inline void embree_intersect(RTCScene rtc, struct RTCRayHit *rh)
@@ -18,6 +22,22 @@ static inline void embree_intersect(RTCScene rtc, struct RTCRayHit *rh)
     struct RTCIntersectArguments arguments;
     rtcInitIntersectArguments(&arguments);
     arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    rtcIntersect1(rtc, rh, &arguments);
+}
+
+/* The same, but only hits that the filter lets pass. The context, which the filter gets,
+ * may be the first member of something larger. */
+static inline void embree_intersect_filtered(RTCScene rtc, struct RTCRayHit *rh,
+                                             RTCFilterFunctionN filter,
+                                             embree_context *context)
+{
+    struct RTCIntersectArguments arguments;
+    rtcInitRayQueryContext(context);
+    rtcInitIntersectArguments(&arguments);
+    arguments.flags = (enum RTCRayQueryFlags)(
+        RTC_RAY_QUERY_FLAG_COHERENT | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
+    arguments.filter = filter;
+    arguments.context = context;
     rtcIntersect1(rtc, rh, &arguments);
 }
 
@@ -32,12 +52,26 @@ static inline bool embree_occluded(RTCScene rtc, struct RTCRay *ray)
 
 #include <embree3/rtcore.h>
 
+typedef struct RTCIntersectContext embree_context;
+
+#define EMBREE_SCENE_FLAG_FILTER RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION
+
 static inline void embree_intersect(RTCScene rtc, struct RTCRayHit *rh)
 {
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     rtcIntersect1(rtc, &context, rh);
+}
+
+static inline void embree_intersect_filtered(RTCScene rtc, struct RTCRayHit *rh,
+                                             RTCFilterFunctionN filter,
+                                             embree_context *context)
+{
+    rtcInitIntersectContext(context);
+    context->flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    context->filter = filter;
+    rtcIntersect1(rtc, context, rh);
 }
 
 static inline bool embree_occluded(RTCScene rtc, struct RTCRay *ray)

@@ -75,6 +75,13 @@ static int allocate(const scene_gbuffer_request *r, scene_gbuffer *g)
             return -1;
     g->normals = malloc(3 * pixels * sizeof(float));
     g->albedo = malloc(3 * pixels * sizeof(float));
+    if (r->texture_frames) {
+        g->uv = malloc(2 * pixels * sizeof(float));
+        g->tangent = malloc(3 * pixels * sizeof(float));
+        g->bitangent = malloc(3 * pixels * sizeof(float));
+        if (!g->uv || !g->tangent || !g->bitangent)
+            return -1;
+    }
     return g->normals && g->albedo ? 0 : -1;
 }
 
@@ -83,33 +90,66 @@ static void set_desc(const scene_gbuffer_request *r, crv_gbuffer_desc *desc)
     crv_gbuffer_desc_init(desc, sizeof *desc, r->width + 2 * r->guard_px,
                           r->height + 2 * r->guard_px);
     desc->layers = r->layers;
+    desc->layer_kind =
+        r->layer_kind == SCENE_LAYERS_BACK ? CRV_LAYERS_SOLID : CRV_LAYERS_SURFACES;
     desc->guard_left = desc->guard_top = r->guard_px;
     desc->guard_right = desc->guard_bottom = r->guard_px;
 }
 
-/* Layer 0 with normal and albedo, then the layers behind it. */
+static vec3 to_view(const scene_axes *axes, vec3 v)
+{
+    return v3(v3_dot(v, axes->right), v3_dot(v, axes->up), v3_dot(v, axes->back));
+}
+
+static void store_texture(const scene_axes *axes, const texture_frame *f, size_t pixel,
+                          scene_gbuffer *g)
+{
+    g->uv[2 * pixel] = f ? (float)f->u : NAN;
+    g->uv[2 * pixel + 1] = f ? (float)f->v : NAN;
+    v3_store(f ? to_view(axes, f->tangent) : v3(0.0, 0.0, 0.0), g->tangent + 3 * pixel);
+    v3_store(f ? to_view(axes, f->bitangent) : v3(0.0, 0.0, 0.0),
+             g->bitangent + 3 * pixel);
+}
+
+/* All layers' depths; hit: layer 0, if there is one. */
+static void cast_layers(const scene *s, const scene_gbuffer_request *r,
+                        const pixel_ray *ray, bool found, surface_hit hit, size_t pixel,
+                        scene_gbuffer *g)
+{
+    uint32_t past[CRV_MAX_LAYERS];
+    if (found && r->layer_kind == SCENE_LAYERS_BACK)
+        prefer_front(s, ray, &hit);
+    for (int32_t layer = 0; layer < r->layers; layer++) {
+        if (found && layer > 0)
+            found = r->layer_kind == SCENE_LAYERS_BACK
+                        ? find_facing_surface(s, ray, layer % 2 == 1, past, layer, &hit)
+                        : find_next_surface(s, ray, &hit);
+        g->depth[layer][pixel] = found ? (float)hit.depth : INFINITY;
+        past[layer] = hit.triangle;
+    }
+}
+
+/* Layer 0 with all that is told of it, then the layers behind it. */
 static void cast_pixel(const scene *s, const scene_gbuffer_request *r,
                        const scene_axes *axes, scene_gbuffer *g, int32_t x, int32_t y)
 {
     size_t pixel = (size_t)y * (size_t)g->desc.width + (size_t)x;
     pixel_ray ray = ray_through_pixel(&g->camera, axes, x, y);
-    surface_hit hit;
+    surface_hit hit = {0};
+    texture_frame frame;
     bool found = find_surface(s, &ray, 0.0f, &hit);
     vec3 normal = v3(0.0, 0.0, 0.0), albedo = normal;
     if (found) {
-        vec3 n = surface_normal(s, &ray, &hit, r->normals);
-        normal = v3(v3_dot(n, axes->right), v3_dot(n, axes->up), v3_dot(n, axes->back));
+        normal = to_view(axes, surface_normal(s, &ray, &hit, r->normals));
         albedo = v3_from(s->mesh.colours + 3 * (size_t)s->mesh.materials[hit.triangle]);
     }
     v3_store(normal, g->normals + 3 * pixel);
     v3_store(albedo, g->albedo + 3 * pixel);
-    for (int32_t layer = 0; layer < r->layers; layer++) {
-        if (layer > 0)
-            found =
-                found
-                && find_next_surface(s, &ray, r->layer_kind == SCENE_LAYERS_BACK, &hit);
-        g->depth[layer][pixel] = found ? (float)hit.depth : INFINITY;
-    }
+    if (r->texture_frames)
+        store_texture(axes,
+                      found && surface_texture(s, &ray, &hit, &frame) ? &frame : NULL,
+                      pixel, g);
+    cast_layers(s, r, &ray, found, hit, pixel, g);
 }
 
 int scene_render_gbuffer(const scene *s, const scene_gbuffer_request *request,
@@ -145,6 +185,9 @@ void scene_gbuffer_free(scene_gbuffer *g)
         free(g->depth[layer]);
     free(g->normals);
     free(g->albedo);
+    free(g->uv);
+    free(g->tangent);
+    free(g->bitangent);
     memset(g, 0, sizeof *g);
 }
 

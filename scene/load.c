@@ -116,8 +116,13 @@ static uint32_t add_vertex(mesh *m, const struct aiMesh *part, size_t vertex,
 {
     const struct aiVector3D *p = &part->mVertices[vertex];
     vec3 position = v3((double)p->x, (double)p->y, (double)p->z);
-    return mesh_add_vertex(m, v3_add(multiply(t->row, position), t->offset),
-                           multiply(n->row, v3_from(normal)));
+    uint32_t added = mesh_add_vertex(m, v3_add(multiply(t->row, position), t->offset),
+                                     multiply(n->row, v3_from(normal)));
+    /* assimp turns every format's coordinates to v up from the picture's lower edge. */
+    if (part->mTextureCoords[0])
+        mesh_set_uv(m, added, (double)part->mTextureCoords[0][vertex].x,
+                    1.0 - (double)part->mTextureCoords[0][vertex].y);
+    return added;
 }
 
 static void add_triangle(mesh *m, const uint32_t corner[3], bool mirrors)

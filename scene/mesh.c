@@ -10,6 +10,7 @@ void mesh_free(mesh *m)
 {
     free(m->positions);
     free(m->normals);
+    free(m->uvs);
     free(m->indices);
     free(m->materials);
     free(m->colours);
@@ -40,7 +41,8 @@ static size_t grown_capacity(size_t capacity, size_t needed)
 static bool set_vertex_capacity(mesh *m, size_t capacity)
 {
     if (capacity > UINT32_MAX || !resize(&m->positions, capacity, 3 * sizeof(float), 4)
-        || !resize(&m->normals, capacity, 3 * sizeof(float), 0)) {
+        || !resize(&m->normals, capacity, 3 * sizeof(float), 0)
+        || !resize(&m->uvs, capacity, 2 * sizeof(float), 0)) {
         m->failed = true;
         return false;
     }
@@ -105,8 +107,17 @@ uint32_t mesh_add_vertex(mesh *m, vec3 position, vec3 normal)
         return 0;
     v3_store(position, m->positions + 3 * index);
     v3_store(v3_normalize(normal), m->normals + 3 * index);
+    m->uvs[2 * index] = m->uvs[2 * index + 1] = NAN;
     m->vertex_count++;
     return (uint32_t)index;
+}
+
+void mesh_set_uv(mesh *m, uint32_t vertex, double u, double v)
+{
+    if (m->failed)
+        return;
+    m->uvs[2 * (size_t)vertex] = (float)u;
+    m->uvs[2 * (size_t)vertex + 1] = (float)v;
 }
 
 bool mesh_usable_position(vec3 p)
@@ -128,9 +139,14 @@ vec3 mesh_face_normal(vec3 a, vec3 b, vec3 c)
 static uint32_t with_usable_normal(mesh *m, uint32_t vertex, vec3 face_normal)
 {
     double length = v3_length(mesh_normal(m, vertex));
+    uint32_t copy;
     if (length > 0.5 && length < 2.0)
         return vertex;
-    return mesh_add_vertex(m, mesh_position(m, vertex), face_normal);
+    copy = mesh_add_vertex(m, mesh_position(m, vertex), face_normal);
+    if (!m->failed)
+        memcpy(m->uvs + 2 * (size_t)copy, m->uvs + 2 * (size_t)vertex,
+               2 * sizeof *m->uvs);
+    return copy;
 }
 
 void mesh_add_triangle(mesh *m, uint32_t a, uint32_t b, uint32_t c)

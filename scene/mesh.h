@@ -19,6 +19,7 @@
 typedef struct mesh {
     float *positions; /* 3 a vertex, and one float more: Embree loads 16 bytes */
     float *normals;   /* 3 a vertex, unit length */
+    float *uvs;       /* 2 a vertex, v down over the map; NaN: none */
     size_t vertex_count, vertex_capacity;
     uint32_t *indices;   /* 3 a triangle, counter-clockwise seen from the front */
     uint32_t *materials; /* 1 a triangle, into colours */
@@ -40,6 +41,9 @@ void mesh_set_colour(mesh *m, double r, double g, double b);
 
 /* Returns the vertex's index. */
 uint32_t mesh_add_vertex(mesh *m, vec3 position, vec3 normal);
+
+/* Gives a vertex its texture coordinates. */
+void mesh_set_uv(mesh *m, uint32_t vertex, double u, double v);
 
 /* Drops degenerate and non-finite triangles. Vertex normals that are not usable become
  * those of the face. */

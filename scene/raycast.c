@@ -49,7 +49,7 @@ static void refine(const mesh *m, const pixel_ray *ray, surface_hit *hit)
                      : (double)hit->found;
 }
 
-bool find_surface(const scene *s, const pixel_ray *ray, float beyond, surface_hit *hit)
+static struct RTCRayHit query_beyond(const pixel_ray *ray, float beyond)
 {
     struct RTCRayHit query = {0};
     query.ray.org_x = (float)ray->origin.x;
@@ -64,13 +64,25 @@ bool find_surface(const scene *s, const pixel_ray *ray, float beyond, surface_hi
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     /* Depth is positive: a surface in the eye itself is not seen. */
     query.ray.tnear = fmaxf(beyond, 1e-30f);
-    embree_intersect(s->rtc, &query);
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+    return query;
+}
+
+static bool take_hit(const scene *s, const pixel_ray *ray, const struct RTCRayHit *query,
+                     surface_hit *hit)
+{
+    if (query->hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return false;
-    hit->triangle = query.hit.primID;
-    hit->found = query.ray.tfar;
+    hit->triangle = query->hit.primID;
+    hit->found = query->ray.tfar;
     refine(&s->mesh, ray, hit);
     return true;
+}
+
+bool find_surface(const scene *s, const pixel_ray *ray, float beyond, surface_hit *hit)
+{
+    struct RTCRayHit query = query_beyond(ray, beyond);
+    embree_intersect(s->rtc, &query);
+    return take_hit(s, ray, &query, hit);
 }
 
 static float largest_coordinate(const scene *s)
@@ -81,21 +93,78 @@ static float largest_coordinate(const scene *s)
     return largest;
 }
 
-bool find_next_surface(const scene *s, const pixel_ray *ray, bool only_back,
-                       surface_hit *hit)
+/* How far apart along the ray two surfaces are at least. */
+static float same_surface(const scene *s, const surface_hit *hit)
 {
-    float skip = SAME_SURFACE_OF_SCENE * largest_coordinate(s);
+    return fmaxf(SAME_SURFACE * hit->found,
+                 SAME_SURFACE_OF_SCENE * largest_coordinate(s));
+}
+
+bool find_next_surface(const scene *s, const pixel_ray *ray, surface_hit *hit)
+{
+    uint32_t before = hit->triangle;
+    float beyond = hit->found + same_surface(s, hit);
     do {
-        uint32_t before = hit->triangle;
-        float beyond = hit->found + fmaxf(SAME_SURFACE * hit->found, skip);
-        do {
-            beyond = nextafterf(beyond, INFINITY);
-            if (!find_surface(s, ray, beyond, hit))
-                return false;
-            beyond = hit->found;
-        } while (hit->triangle == before); /* a ray meets a triangle once */
-    } while (only_back && !hit->from_back);
+        beyond = nextafterf(beyond, INFINITY);
+        if (!find_surface(s, ray, beyond, hit))
+            return false;
+        beyond = hit->found;
+    } while (hit->triangle == before); /* a ray meets a triangle once */
     return true;
+}
+
+typedef struct facing_query {
+    embree_context context; /* first, so that the filter finds the rest */
+    const mesh *mesh;
+    vec3 direction;
+    bool back;
+    const uint32_t *past;
+    int past_count;
+} facing_query;
+
+/* A filter, because a plain query tells only one of triangles that coincide. */
+static void keep_facing(const struct RTCFilterFunctionNArguments *arguments)
+{
+    const facing_query *q = (const facing_query *)(const void *)arguments->context;
+    /* The packet of one ray has the layout of a single hit. */
+    uint32_t triangle = ((const struct RTCHit *)(const void *)arguments->hit)->primID;
+    vec3 corner[3], face;
+    bool keep;
+    get_corners(q->mesh, triangle, corner);
+    face = v3_cross(v3_sub(corner[1], corner[0]), v3_sub(corner[2], corner[0]));
+    keep = (v3_dot(face, q->direction) > 0.0) == q->back;
+    for (int i = 0; i < q->past_count; i++)
+        keep = keep && q->past[i] != triangle;
+    if (!keep)
+        arguments->valid[0] = 0;
+}
+
+bool find_facing_surface(const scene *s, const pixel_ray *ray, bool back,
+                         const uint32_t *past, int past_count, surface_hit *hit)
+{
+    facing_query q = {.mesh = &s->mesh,
+                      .direction = ray->direction,
+                      .back = back,
+                      .past = past,
+                      .past_count = past_count};
+    float step = same_surface(s, hit);
+    /* What touches the surface with its other side may be found a little before it. */
+    float beyond = hit->from_back == back ? hit->found + step : hit->found - step;
+    double depth = hit->depth;
+    struct RTCRayHit query = query_beyond(ray, beyond);
+    embree_intersect_filtered(s->rtc, &query, keep_facing, &q.context);
+    if (!take_hit(s, ray, &query, hit))
+        return false;
+    hit->depth = fmax(hit->depth, depth);
+    return true;
+}
+
+void prefer_front(const scene *s, const pixel_ray *ray, surface_hit *hit)
+{
+    surface_hit front = *hit;
+    if (hit->from_back && find_facing_surface(s, ray, false, NULL, 0, &front)
+        && front.found <= hit->found + same_surface(s, hit))
+        *hit = front;
 }
 
 /* Weights of the corners at the point where the ray meets the triangle's plane. */
@@ -111,6 +180,13 @@ static void get_barycentrics(const vec3 corner[3], vec3 point, double weight[3])
     weight[0] = 1.0 - weight[1] - weight[2];
 }
 
+void surface_weights(const scene *s, const pixel_ray *ray, const surface_hit *hit,
+                     vec3 corner[3], double weight[3])
+{
+    get_corners(&s->mesh, hit->triangle, corner);
+    get_barycentrics(corner, v3_along(ray->origin, ray->direction, hit->depth), weight);
+}
+
 vec3 surface_normal(const scene *s, const pixel_ray *ray, const surface_hit *hit,
                     scene_normals kind)
 {
@@ -121,8 +197,7 @@ vec3 surface_normal(const scene *s, const pixel_ray *ray, const surface_hit *hit
     double weight[3];
     if (kind == SCENE_NORMALS_FACE)
         return seen;
-    get_corners(m, hit->triangle, corner);
-    get_barycentrics(corner, v3_along(ray->origin, ray->direction, hit->depth), weight);
+    surface_weights(s, ray, hit, corner, weight);
     for (int i = 0; i < 3; i++) {
         vec3 n = mesh_normal(m, index[i]);
         normal = v3_along(normal, n, weight[i]);

@@ -29,13 +29,36 @@ typedef struct surface_hit {
 /* The nearest surface farther than `beyond`. False: background. */
 bool find_surface(const scene *s, const pixel_ray *ray, float beyond, surface_hit *hit);
 
-/* The next surface along the ray that is not the one of `hit`; with only_back one whose
- * back is seen. Replaces *hit. */
-bool find_next_surface(const scene *s, const pixel_ray *ray, bool only_back,
-                       surface_hit *hit);
+/* The next surface along the ray that is not the one of `hit`, which is replaced. */
+bool find_next_surface(const scene *s, const pixel_ray *ray, surface_hit *hit);
+
+/* The next surface whose back (or else front) is seen; it may lie in the very place of
+ * the one before if that shows its other side. past: the layers' triangles so far, whose
+ * last is that of `hit`. Replaces *hit. */
+bool find_facing_surface(const scene *s, const pixel_ray *ray, bool back,
+                         const uint32_t *past, int past_count, surface_hit *hit);
+
+/* Of a sheet with fronts on both sides the ray caster may tell either: this replaces a
+ * back by the front in the same place. */
+void prefer_front(const scene *s, const pixel_ray *ray, surface_hit *hit);
+
+/* The triangle's corners, and their weights in the point that was hit. */
+void surface_weights(const scene *s, const pixel_ray *ray, const surface_hit *hit,
+                     vec3 corner[3], double weight[3]);
 
 /* The unit normal, world space, turned to the side that is seen. */
 vec3 surface_normal(const scene *s, const pixel_ray *ray, const surface_hit *hit,
                     scene_normals kind);
+
+/* Texture coordinates in the point that was hit, and how the point changes with them,
+ * world space. */
+typedef struct texture_frame {
+    double u, v;
+    vec3 tangent, bitangent;
+} texture_frame;
+
+/* False where the triangle has no texture coordinates or they do not span it. */
+bool surface_texture(const scene *s, const pixel_ray *ray, const surface_hit *hit,
+                     texture_frame *out);
 
 #endif

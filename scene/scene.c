@@ -76,7 +76,7 @@ static bool build_acceleration(scene *s)
                                s->mesh.triangle_count);
     rtcCommitGeometry(geometry);
     s->rtc = rtcNewScene(s->device);
-    rtcSetSceneFlags(s->rtc, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(s->rtc, RTC_SCENE_FLAG_ROBUST | EMBREE_SCENE_FLAG_FILTER);
     rtcAttachGeometry(s->rtc, geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(s->rtc);

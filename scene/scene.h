@@ -18,14 +18,15 @@ typedef struct scene scene;
 
 /*
  * Loads what assimp can read: node transforms and instances applied, missing normals
- * computed (smooth, crease angle 60 degrees), degenerate and non-finite triangles dropped
- * (a warning counts them), points and lines ignored. A file without triangles is an
- * error.
+ * computed (smooth, crease angle 60 degrees), the first set of texture coordinates kept,
+ * degenerate and non-finite triangles dropped (a warning counts them), points and lines
+ * ignored. A file without triangles is an error.
  */
 int scene_load(const char *path, scene **out, const crv_logger *log);
 
 /* A scene made in code. Names: scene_builtin_name(0 ...), NULL beyond. "courtyard" is the
- * demo: columns, steps, spheres in contact, a gear-like machine, thin grass. */
+ * demo: columns, steps, spheres in contact, a gear-like machine, thin grass; "relief" is
+ * for height maps. Flat faces and spheres have texture coordinates. */
 int scene_builtin(const char *name, scene **out, const crv_logger *log);
 const char *scene_builtin_name(int32_t index);
 
@@ -53,8 +54,13 @@ void scene_frame(const scene *s, float vfov_rad, float aspect, scene_view *out);
 float scene_suggest_radius(const scene *s, const scene_view *view);
 
 typedef enum scene_layers {
-    SCENE_LAYERS_NEXT = 0, /* each further layer is the next surface along the ray */
-    SCENE_LAYERS_BACK = 1  /* each further layer is the next surface that faces away */
+    /* Each further layer is the next surface along the ray: CRV_LAYERS_SURFACES. */
+    SCENE_LAYERS_NEXT = 0,
+    /* Fronts and backs of solids: layer 1 is the next surface after layer 0 that faces
+     * away, layer 2 the next after layer 1 that faces the viewer, layer 3 the next after
+     * that which faces away: CRV_LAYERS_SOLID. Depths do not fall from layer to layer;
+     * they are equal where solids touch. Once there is none, further layers are empty. */
+    SCENE_LAYERS_BACK = 1
 } scene_layers;
 
 typedef enum scene_normals {
@@ -70,7 +76,8 @@ typedef struct scene_gbuffer_request {
     int32_t layers;        /* 1 to CRV_MAX_LAYERS */
     scene_layers layer_kind;
     scene_normals normals;
-    int32_t threads; /* 0: OpenMP's choice */
+    int32_t threads;     /* 0: OpenMP's choice */
+    bool texture_frames; /* also fill uv, tangent and bitangent */
 } scene_gbuffer_request;
 
 /* Pixels are packed, guard band included. */
@@ -81,6 +88,13 @@ typedef struct scene_gbuffer {
     float *depth[CRV_MAX_LAYERS]; /* planar; background INFINITY; owned */
     float *normals; /* width * height * 3, view space; background 0; owned */
     float *albedo;  /* width * height * 3, linear; background 0; owned */
+    /* What crv_height_field wants of layer 0; NULL unless texture_frames. uv is NaN and
+     * the others are 0 in the background and where the mesh has no texture coordinates,
+     * or none that span its surface. */
+    float *uv;        /* width * height * 2: u to the right, v down over the map; owned */
+    float *tangent;   /* width * height * 3, view space: dP/du of the pixel's triangle,
+                         scene units, not of unit length; owned */
+    float *bitangent; /* the same, dP/dv */
 } scene_gbuffer;
 
 /* Ray-casts a G-buffer; every ray goes through the pixel's centre. Errors: sizes out of
@@ -91,17 +105,82 @@ int scene_render_gbuffer(const scene *s, const scene_gbuffer_request *request,
 /* Frees what the G-buffer owns and zeroes it. */
 void scene_gbuffer_free(scene_gbuffer *g);
 
-/* Makes (when *gbuffer is NULL) or refills a library G-buffer from a ray-cast one. */
+/* Makes (when *gbuffer is NULL) or refills a library G-buffer from a ray-cast one: depth,
+ * layer kind and normals. A height field, which the camera clears, is set after this. */
 crv_status scene_gbuffer_upload(const scene_gbuffer *g, struct crv_context *context,
                                 crv_gbuffer **gbuffer);
 
 /*
- * Lights the picture inside the guard band: sky light (constant gradient from zenith to
- * ground) times accessibility, plus one key light with ray-cast shadows that
- * accessibility does not darken. accessibility: one channel, or NULL for a picture
- * without ambient occlusion. rgb: three channels, linear; background gets the sky.
+ * Lighting. Everything is linear radiance. The sky has a space of its own, +Y at the
+ * zenith: world space where sky_up is +Y, else turned from it by the shortest way.
  */
-int scene_shade(const scene *s, const scene_gbuffer *g, const crv_image *accessibility,
-                const crv_image *rgb, int32_t threads, const crv_logger *log);
+typedef enum scene_sky {
+    /* The default: even light from above and from the ground, before a painted backdrop.
+     * Has no settings. */
+    SCENE_SKY_PAINTED = 0,
+    SCENE_SKY_CONSTANT = 1, /* `constant` from everywhere */
+    /* Above the horizon from `horizon` to `zenith` with the square root of the sine of
+     * the elevation; `ground` below. */
+    SCENE_SKY_GRADIENT = 2,
+    SCENE_SKY_ENVIRONMENT = 3 /* `environment`; see scene_sky_from_equirect() */
+} scene_sky;
+
+typedef struct scene_lighting {
+    scene_sky sky;
+    float sky_up[3]; /* the zenith, world space, any length; zero: the view's up */
+    float constant[3];
+    float zenith[3], horizon[3], ground[3];
+    /* Radiance as real spherical harmonics, RGB each, in the order Y00, Y1-1 (y), Y10
+     * (z), Y11 (x), Y2-2 (xy), Y2-1 (yz), Y20 (3z^2 - 1), Y21 (xz), Y22 (x^2 - y^2). */
+    float environment[9][3];
+    /* The environment's picture for the background, laid out as
+     * scene_sky_from_equirect() takes it; not owned. NULL: the harmonics are shown. */
+    const float *picture;
+    int32_t picture_width, picture_height;
+    /* Key light. A white surface that faces it gets radiance key_colour. */
+    float key_direction[3]; /* towards it, world space, any length; zero: over the
+                               viewer's left shoulder */
+    float key_colour[3];    /* zero: none */
+} scene_lighting;
+
+/* The painted sky with a warm key light over the viewer's left shoulder. The members of
+ * the other kinds have usable values, too, so that only `sky` need be changed. */
+scene_lighting scene_lighting_default(void);
+
+/*
+ * Sets the sky to an environment: projects an equirectangular picture to `environment`,
+ * remembers it in `picture` (it must outlive the lighting, or set picture to NULL) and
+ * leaves the key light alone. rgb: packed, row 0 on top. The top edge is +Y and the
+ * bottom edge -Y; the picture's centre is -Z, and to the right of it comes +X (the left
+ * and right edges are +Z): pixel centre (i, j) has azimuth p = 2 pi (i + 0.5) / width -
+ * pi and polar angle t = pi (j + 0.5) / height, direction (sin t sin p, cos t, -sin t cos
+ * p). NaN and negative values count as 0 and infinite ones as 65504, after a warning.
+ * Errors: no pixels, or more than CRV_MAX_SIZE on a side; *lighting is then unchanged.
+ * name: the picture's, for messages.
+ */
+int scene_sky_from_equirect(const float *rgb, int32_t width, int32_t height,
+                            const char *name, scene_lighting *lighting,
+                            const crv_logger *log);
+
+/* What a surface with this unit normal gets from the sky, all of it visible: pi times the
+ * radiance of a constant sky. For an environment the order-2 approximation (Ramamoorthi
+ * and Hanrahan 2001), not below 0. The direction is in the sky's space. */
+void scene_sky_irradiance(const scene_lighting *lighting, const float normal[3],
+                          float rgb[3]);
+
+/* What the background shows in this unit direction of the sky's space. */
+void scene_sky_radiance(const scene_lighting *lighting, const float direction[3],
+                        float rgb[3]);
+
+/*
+ * Lights the picture inside the guard band:
+ * albedo (irradiance / pi * accessibility + key_colour max(0, n.l) shadow). Accessibility
+ * does not darken the key light, whose shadows are ray-cast. lighting NULL: the default.
+ * accessibility: one channel, or NULL for a picture without ambient occlusion. rgb: three
+ * channels, linear; background gets the sky.
+ */
+int scene_shade(const scene *s, const scene_gbuffer *g, const scene_lighting *lighting,
+                const crv_image *accessibility, const crv_image *rgb, int32_t threads,
+                const crv_logger *log);
 
 #endif

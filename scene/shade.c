@@ -1,39 +1,30 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * A plain outdoor light: enough to judge ambient occlusion in a picture, no more.
+ * Pictures: sky light that accessibility darkens, and one key light that it does not.
  */
 #include "raycast.h"
-
-/* Linear radiance. Sky and ground light add up with the key light to less than 1 on white
- * paper that faces both. */
-static const vec3 sky_light = {0.30, 0.36, 0.46};
-static const vec3 ground_light = {0.17, 0.15, 0.13};
-static const vec3 key_light = {0.66, 0.60, 0.50};
-static const vec3 zenith = {0.22, 0.36, 0.62};
-static const vec3 horizon = {0.66, 0.74, 0.84};
+#include "sky.h"
 
 typedef struct lighting {
     const scene *scene;
     const scene_gbuffer *gbuffer;
     scene_axes axes;
-    vec3 up;     /* of the world, as the view has it */
-    vec3 to_key; /* over the viewer's left shoulder */
+    scene_lighting light;
+    sky_table table;
+    vec3 sky[3]; /* the sky's axes in world space */
+    vec3 to_key;
+    vec3 key_colour;
+    bool has_key;
 } lighting;
-
-static vec3 mix(vec3 a, vec3 b, double t)
-{
-    return v3_along(a, v3_sub(b, a), t);
-}
 
 static vec3 multiply(vec3 a, vec3 b)
 {
     return v3(a.x * b.x, a.y * b.y, a.z * b.z);
 }
 
-static vec3 sky_colour(const lighting *l, vec3 direction)
+static vec3 to_sky(const lighting *l, vec3 v)
 {
-    double height = v3_dot(v3_normalize(direction), l->up);
-    return mix(horizon, zenith, sqrt(fmin(fmax(height, 0.0), 1.0)));
+    return v3(v3_dot(v, l->sky[0]), v3_dot(v, l->sky[1]), v3_dot(v, l->sky[2]));
 }
 
 /* Rays begin off the surface by a share of the pixel's footprint, which is what the depth
@@ -69,16 +60,17 @@ static vec3 shade_pixel(const lighting *l, int32_t x, int32_t y, double accessib
     pixel_ray ray = ray_through_pixel(&g->camera, &l->axes, x, y);
     vec3 n, normal, point, light;
     if (!(depth > 0.0 && isfinite(depth)))
-        return sky_colour(l, ray.direction);
+        return sky_radiance(&l->light, to_sky(l, v3_normalize(ray.direction)));
     n = v3_from(g->normals + 3 * pixel);
     normal = v3_along(v3_along(v3_scale(l->axes.right, n.x), l->axes.up, n.y),
                       l->axes.back, n.z);
     point = v3_along(ray.origin, ray.direction, depth);
-    light = v3_scale(mix(ground_light, sky_light, 0.5 + 0.5 * v3_dot(normal, l->up)),
-                     accessibility);
+    light = v3_scale(sky_irradiance(&l->light, &l->table, to_sky(l, normal)),
+                     accessibility / SCENE_PI);
     facing = v3_dot(normal, l->to_key);
-    if (facing > 0.0 && !in_shadow(l, shadow_origin(l, point, normal, depth)))
-        light = v3_along(light, key_light, facing);
+    if (l->has_key && facing > 0.0
+        && !in_shadow(l, shadow_origin(l, point, normal, depth)))
+        light = v3_along(light, l->key_colour, facing);
     return multiply(v3_from(g->albedo + 3 * pixel), light);
 }
 
@@ -102,8 +94,44 @@ static bool covers(const crv_image *image, const crv_gbuffer_desc *d, int32_t ch
            && image->height == d->height - d->guard_top - d->guard_bottom;
 }
 
-int scene_shade(const scene *s, const scene_gbuffer *g, const crv_image *accessibility,
-                const crv_image *rgb, int32_t threads, const crv_logger *log)
+/* The axes' images under the shortest turn that takes +Y to the zenith. */
+static void turn_sky(vec3 up, vec3 axes[3])
+{
+    vec3 pivot = v3(up.z, 0.0, -up.x); /* +Y x up */
+    for (int i = 0; i < 3; i++) {
+        vec3 axis = v3(i == 0, i == 1, i == 2);
+        vec3 once = v3_cross(pivot, axis);
+        axes[i] = v3_along(v3_along(axis, once, 1.0), v3_cross(pivot, once),
+                           1.0 / (1.0 + up.y));
+        /* Straight down there is no shortest way: half a turn about X. */
+        if (up.y < -1.0 + 1e-9)
+            axes[i] = v3(axis.x, -axis.y, -axis.z);
+    }
+}
+
+static vec3 unit_or(const float given[3], vec3 otherwise)
+{
+    vec3 v = v3_normalize(v3_from(given));
+    return v3_dot(v, v) > 0.5 ? v : otherwise;
+}
+
+static void prepare(lighting *l, const scene_lighting *given)
+{
+    vec3 view_up = v3_normalize(v3_from(l->gbuffer->view.up)), shoulder;
+    l->light = given ? *given : scene_lighting_default();
+    turn_sky(unit_or(l->light.sky_up, view_up), l->sky);
+    if (l->light.sky == SCENE_SKY_GRADIENT)
+        sky_fill_table(&l->table);
+    shoulder = v3_normalize(v3_along(
+        v3_along(v3_scale(l->axes.right, -0.62), view_up, 0.8), l->axes.back, 0.42));
+    l->to_key = unit_or(l->light.key_direction, shoulder);
+    l->key_colour = v3_from(l->light.key_colour);
+    l->has_key = v3_dot(l->key_colour, l->key_colour) > 0.0;
+}
+
+int scene_shade(const scene *s, const scene_gbuffer *g, const scene_lighting *light,
+                const crv_image *accessibility, const crv_image *rgb, int32_t threads,
+                const crv_logger *log)
 {
     lighting l = {.scene = s, .gbuffer = g};
     if (!covers(rgb, &g->desc, 3)
@@ -113,9 +141,7 @@ int scene_shade(const scene *s, const scene_gbuffer *g, const crv_image *accessi
                   "does not fit the G-buffer; give it the size inside the guard band");
         return -1;
     }
-    l.up = v3_normalize(v3_from(g->view.up));
-    l.to_key = v3_normalize(
-        v3_along(v3_along(v3_scale(l.axes.right, -0.62), l.up, 0.8), l.axes.back, 0.42));
+    prepare(&l, light);
 #ifdef _OPENMP
 #pragma omp parallel for schedule(dynamic, 2) num_threads(scene_thread_count(threads))
 #else

@@ -33,22 +33,38 @@ static uint32_t add_vertex(mesh *m, const place *at, vec3 p, vec3 normal)
     return mesh_add_vertex(m, place_point(at, p), place_direction(at, normal));
 }
 
+/* The plane is that of the two axes which the normal is least along. */
+static uint32_t add_flat_vertex(mesh *m, const place *at, vec3 p, vec3 normal)
+{
+    uint32_t vertex = add_vertex(m, at, p, normal);
+    double x = fabs(normal.x), y = fabs(normal.y), z = fabs(normal.z);
+    double u = normal.z >= 0.0 ? p.x : -p.x, v = -p.y;
+    if (y >= x && y >= z) {
+        u = p.x;
+        v = normal.y >= 0.0 ? p.z : -p.z;
+    } else if (x >= z) {
+        u = normal.x >= 0.0 ? -p.z : p.z;
+    }
+    mesh_set_uv(m, vertex, u / SHAPE_TILE, v / SHAPE_TILE);
+    return vertex;
+}
+
 void shape_triangle(mesh *m, const place *at, vec3 a, vec3 b, vec3 c)
 {
     vec3 normal = v3_cross(v3_sub(b, a), v3_sub(c, a));
-    uint32_t first = add_vertex(m, at, a, normal);
-    add_vertex(m, at, b, normal);
-    add_vertex(m, at, c, normal);
+    uint32_t first = add_flat_vertex(m, at, a, normal);
+    add_flat_vertex(m, at, b, normal);
+    add_flat_vertex(m, at, c, normal);
     mesh_add_triangle(m, first, first + 1, first + 2);
 }
 
 void shape_quad(mesh *m, const place *at, vec3 a, vec3 b, vec3 c, vec3 d)
 {
     vec3 normal = v3_cross(v3_sub(c, a), v3_sub(d, b));
-    uint32_t first = add_vertex(m, at, a, normal);
-    add_vertex(m, at, b, normal);
-    add_vertex(m, at, c, normal);
-    add_vertex(m, at, d, normal);
+    uint32_t first = add_flat_vertex(m, at, a, normal);
+    add_flat_vertex(m, at, b, normal);
+    add_flat_vertex(m, at, c, normal);
+    add_flat_vertex(m, at, d, normal);
     mesh_add_triangle(m, first, first + 1, first + 2);
     mesh_add_triangle(m, first, first + 2, first + 3);
 }
@@ -134,21 +150,23 @@ void shape_sphere(mesh *m, const place *at, vec3 centre, double radius, int segm
     uint32_t first = (uint32_t)m->vertex_count;
     for (int row = 0; row <= rows; row++) {
         double latitude = SCENE_PI * (row / (double)rows - 0.5);
-        for (int i = 0; i < segments; i++) {
-            double angle = 2.0 * SCENE_PI * i / segments;
+        /* The first column once more at the end, where the map does. */
+        for (int i = 0; i <= segments; i++) {
+            double angle = 2.0 * SCENE_PI * (i % segments) / segments;
             vec3 n = v3(cos(latitude) * cos(angle), sin(latitude),
                         -cos(latitude) * sin(angle));
             /* cos(pi / 2) is not quite 0: the poles would be tiny holes. */
             if (row == 0 || row == rows)
                 n = v3(0.0, row ? 1.0 : -1.0, 0.0);
-            add_vertex(m, at, v3_along(centre, n, radius), n);
+            mesh_set_uv(m, add_vertex(m, at, v3_along(centre, n, radius), n),
+                        i / (double)segments, 1.0 - row / (double)rows);
         }
     }
     for (int row = 0; row < rows; row++) {
         for (int i = 0; i < segments; i++) {
-            uint32_t here = first + (uint32_t)(row * segments + i);
-            uint32_t next = first + (uint32_t)(row * segments + (i + 1) % segments);
-            uint32_t step = (uint32_t)segments;
+            uint32_t step = (uint32_t)segments + 1;
+            uint32_t here = first + (uint32_t)row * step + (uint32_t)i;
+            uint32_t next = here + 1;
             /* The rows at the poles are points: one triangle of the two is left. */
             if (row > 0)
                 mesh_add_triangle(m, here, next, next + step);

@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * shapes.h: solids for scenes made in code. Every shape is closed or stands on its base,
- * has outward normals, smooth where the surface is, and is placed by a frame.
+ * has outward normals, smooth where the surface is, and is placed by a frame. Triangles
+ * and quads have texture coordinates in the plane of two local axes, the map SHAPE_TILE
+ * units large and, seen from the front, not mirrored.
  */
 #ifndef CREVICE_SCENE_SHAPES_H
 #define CREVICE_SCENE_SHAPES_H
 
 #include "mesh.h"
+
+#define SHAPE_TILE 2.0
 
 /* A right-handed orthonormal frame: local (x, y, z) is origin + x X + y Y + z Z. */
 typedef struct place {
@@ -32,6 +36,7 @@ void shape_quad(mesh *m, const place *at, vec3 a, vec3 b, vec3 c, vec3 d);
 /* With edges cut off at 45 degrees; bevel 0 leaves them sharp. */
 void shape_box(mesh *m, const place *at, vec3 lower, vec3 upper, double bevel);
 
+/* The map goes once around, eastwards, and from pole to pole. */
 void shape_sphere(mesh *m, const place *at, vec3 centre, double radius, int segments);
 
 typedef struct profile_point {

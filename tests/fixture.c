@@ -135,7 +135,7 @@ static void upload(const fixture *f, const fixture_run *run, crv_gbuffer *gbuffe
     crv_image depth = crv_image_packed(f->depth, f->width, f->height, 1);
     crv_image normals = crv_image_packed(f->normals, f->width, f->height, 3);
     assert_int_equal(crv_gbuffer_set_camera(gbuffer, &f->camera), CRV_OK);
-    assert_int_equal(crv_gbuffer_set_depth(gbuffer, 0, &depth, NULL), CRV_OK);
+    assert_int_equal(crv_gbuffer_set_depth(gbuffer, 0, &depth, run->format), CRV_OK);
     if (run->second_layer) {
         depth.data = (float *)(uintptr_t)run->second_layer; /* only read */
         assert_int_equal(crv_gbuffer_set_depth(gbuffer, 1, &depth, NULL), CRV_OK);

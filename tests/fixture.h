@@ -57,6 +57,7 @@ typedef struct fixture_run {
     int32_t origin_x, origin_y;
     int32_t without_normals;
     const float *second_layer;
+    const crv_depth_format *format; /* what the fixture's depth holds; NULL: planar */
 } fixture_run;
 
 /* Computes a frame and returns the result's pixels, which the caller frees. Any error

@@ -107,7 +107,8 @@ static double estimate(const groove *g, const char *method, crv_falloff falloff,
     options.bias_deg = 0;
     options.noise_size = 1;
     options.seed = e.seed;
-    const fixture_run run = {.guard_left = g->reach_px,
+    const fixture_run run = {.threads = 1,
+                             .guard_left = g->reach_px,
                              .guard_top = g->reach_px,
                              .guard_right = g->reach_px,
                              .guard_bottom = g->reach_px};

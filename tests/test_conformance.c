@@ -141,13 +141,24 @@ static void a_quarter_turn_does_not_matter(const char *method)
     fixture_free(&turned);
 }
 
+/* Little work, where much is not needed. */
+static crv_options few_samples(const char *method)
+{
+    crv_options options = fixture_options(method);
+    options.directions = 4;
+    options.steps = 4;
+    options.normal_rays = 1;
+    options.samples = 4;
+    return options;
+}
+
 static void resolution_does_not_matter(const char *method)
 {
     static const int32_t WIDTHS[] = {320, 640, 1280, 1920};
     double means[4];
     for (int i = 0; i < 4; i++) {
         fixture f = spheres(WIDTHS[i], WIDTHS[i] * 9 / 16);
-        crv_options options = fixture_options(method);
+        crv_options options = few_samples(method);
         options.radius = 2;
         options.falloff = CRV_FALLOFF_NONE; /* where the method has it: more to see */
         float *a = fixture_compute(&f, &options, NULL);
@@ -161,23 +172,36 @@ static void resolution_does_not_matter(const char *method)
     assert_true(means[0] < 0.995); /* there is something to see */
 }
 
+/* The top left part of a fixture. */
+static fixture cut(const fixture *f, int32_t width, int32_t height)
+{
+    fixture part = {.width = width, .height = height, .camera = f->camera};
+    part.depth = malloc((size_t)(width * height) * sizeof(float));
+    part.normals = malloc((size_t)(width * height) * 3 * sizeof(float));
+    for (int32_t y = 0; y < height; y++) {
+        memcpy(part.depth + y * width, f->depth + y * f->width,
+               (size_t)width * sizeof(float));
+        memcpy(part.normals + y * width * 3, f->normals + y * f->width * 3,
+               (size_t)width * 3 * sizeof(float));
+    }
+    return part;
+}
+
 static void every_size_runs(const char *method)
 {
-    for (int32_t height = 1; height <= 67; height++) {
-        for (int32_t width = 1; width <= 67; width++) {
-            fixture f = spheres(width, height);
-            crv_options options = fixture_options(method);
-            options.directions = 4;
-            options.steps = 3;
-            const fixture_run run = {.threads = 1,
-                                     .without_normals = (width + height) & 1};
-            float *a = fixture_compute(&f, &options, &run);
-            for (int32_t i = 0; i < width * height; i++)
-                assert_true(a[i] >= 0 && a[i] <= 1);
-            free(a);
-            fixture_free(&f);
-        }
+    enum { LARGEST = 67 };
+    fixture whole = spheres(LARGEST, LARGEST);
+    crv_options options = few_samples(method);
+    for (int32_t i = 0; i < LARGEST * LARGEST; i++) {
+        fixture f = cut(&whole, i % LARGEST + 1, i / LARGEST + 1);
+        const fixture_run run = {.threads = 1, .without_normals = i & 1};
+        float *a = fixture_compute(&f, &options, &run);
+        for (int32_t k = 0; k < f.width * f.height; k++)
+            assert_true(a[k] >= 0 && a[k] <= 1);
+        free(a);
+        fixture_free(&f);
     }
+    fixture_free(&whole);
 }
 
 /* A piece of a larger picture, computed alone with a guard band, equals the piece cut
@@ -217,6 +241,41 @@ static void crops_equal_cuts(const char *method)
 {
     for (int32_t k = -1; k < crv_filter_count(); k++)
         a_crop_equals_the_cut(method, crv_filter_at(k));
+}
+
+/* A depth buffer as graphics hardware writes it, reversed with an infinite far plane (v =
+ * near / d), standard with a finite one, and distance from the eye. */
+static void depth_encodings_do_not_matter(const char *method)
+{
+    static const crv_depth_format FORMATS[] = {{CRV_DEPTH_REVERSED, 0.5f, INFINITY, 0},
+                                               {CRV_DEPTH_HARDWARE, 0.5f, 50, 0},
+                                               {CRV_DEPTH_RADIAL, 0, 0, INFINITY}};
+    fixture f = spheres(160, 90), encoded = spheres(160, 90);
+    const int32_t count = f.width * f.height;
+    crv_options options = fixture_options(method);
+    options.radius = 0.5f;
+    float *planar = fixture_compute(&f, &options, NULL);
+    for (int k = 0; k < 3; k++) {
+        for (int32_t i = 0; i < count; i++) {
+            const double d = (double)f.depth[i];
+            const double u =
+                (i % 160 + 0.5 - (double)f.camera.cx_px) / (double)f.camera.fx_px;
+            const double v =
+                (i / 160 + 0.5 - (double)f.camera.cy_px) / (double)f.camera.fy_px;
+            const double values[3] = {0.5 / d,
+                                      isinf(d) ? 1 : 50 * (d - 0.5) / (d * (50 - 0.5)),
+                                      d * sqrt(1 + u * u + v * v)};
+            encoded.depth[i] = (float)values[k];
+        }
+        float *other =
+            fixture_compute(&encoded, &options, &(fixture_run){.format = &FORMATS[k]});
+        /* Rounding decides a few samples at edges of texels and of the radius. */
+        assert_true(share_beyond(planar, other, count, 1e-3) < 0.005);
+        free(other);
+    }
+    free(planar);
+    fixture_free(&f);
+    fixture_free(&encoded);
 }
 
 static void background_is_white_and_does_not_occlude(const char *method)
@@ -327,6 +386,7 @@ int main(void)
         resolution_does_not_matter,
         every_size_runs,
         crops_equal_cuts,
+        depth_encodings_do_not_matter,
         background_is_white_and_does_not_occlude,
         hostile_input_stays_in_range,
         intensity_and_contrast_follow_their_formula,
@@ -343,10 +403,11 @@ int main(void)
         PROPERTY(3, "resolution does not matter"),
         PROPERTY(4, "every size runs"),
         PROPERTY(5, "crops equal cuts"),
-        PROPERTY(6, "background is white and does not occlude"),
-        PROPERTY(7, "hostile input stays in range"),
-        PROPERTY(8, "intensity and contrast follow their formula"),
-        PROPERTY(9, "seeds differ and repeat"),
+        PROPERTY(6, "depth encodings do not matter"),
+        PROPERTY(7, "background is white and does not occlude"),
+        PROPERTY(8, "hostile input stays in range"),
+        PROPERTY(9, "intensity and contrast follow their formula"),
+        PROPERTY(10, "seeds differ and repeat"),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -355,8 +355,31 @@ static void test_layers(void **state)
     support_forget();
     load(path, &request, &frame);
     assert_int_equal(frame.desc.layers, 3);
+    assert_int_equal(frame.desc.layer_kind, CRV_LAYERS_SURFACES);
     for (int i = 0; i < 3; i++)
         assert_true(*crv_image_at(&frame.depth[i], 0, 0, 0) == (float)(i + 1));
+    assert_int_equal(support_lines.warnings + support_lines.errors, 0);
+    io_frame_free(&frame);
+}
+
+/* The kind is in the names; layers of the other kind are left alone. */
+static void test_layers_of_solids(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"Z", "solid2.Z", "solid3.Z", "layer4.Z"};
+    const float values[4][1] = {{1}, {2}, {3}, {4}};
+    const float *planes[] = {values[0], values[1], values[2], values[3]};
+    const char *path = support_path("solids.exr");
+    const io_passes_request request = default_request();
+    io_frame frame;
+    support_make_plain_exr(path, names, 4, 1, 1, planes);
+    support_forget();
+    load(path, &request, &frame);
+    assert_int_equal(frame.desc.layers, 3);
+    assert_int_equal(frame.desc.layer_kind, CRV_LAYERS_SOLID);
+    for (int i = 0; i < 3; i++)
+        assert_true(*crv_image_at(&frame.depth[i], 0, 0, 0) == (float)(i + 1));
+    assert_non_null(strstr(support_lines.text, "3 layers of solids"));
     assert_int_equal(support_lines.warnings + support_lines.errors, 0);
     io_frame_free(&frame);
 }
@@ -641,6 +664,7 @@ int main(void)
         cmocka_unit_test(test_names),
         cmocka_unit_test(test_choice_by_name),
         cmocka_unit_test(test_layers),
+        cmocka_unit_test(test_layers_of_solids),
         cmocka_unit_test(test_camera_metadata),
         cmocka_unit_test(test_orthographic_metadata),
         cmocka_unit_test(test_windows),

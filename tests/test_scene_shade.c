@@ -23,7 +23,7 @@ static void shade(const picture *p, float *accessibility, float *rgb, int32_t th
     crv_image ao, image = crv_image_packed(rgb, WIDTH, HEIGHT, 3);
     if (accessibility)
         ao = crv_image_packed(accessibility, WIDTH, HEIGHT, 1);
-    assert_int_equal(scene_shade(p->scene, &p->gbuffer, accessibility ? &ao : NULL,
+    assert_int_equal(scene_shade(p->scene, &p->gbuffer, NULL, accessibility ? &ao : NULL,
                                  &image, threads, NULL),
                      0);
 }
@@ -118,6 +118,141 @@ static void test_background_is_sky(void **state)
     assert_true(background > 20);
 }
 
+/* A white floor under this light, seen from above: every pixel alike but for
+ * accessibility. */
+static void shade_floor(const scene_lighting *light, float *accessibility, float *rgb)
+{
+    static const double eye[3] = {0, 5, 1}, target[3] = {0, 0, 0};
+    scene *s = load_text("floor.obj", "v -99 0 99\nv 99 0 99\nv 0 0 -99\nf 1 2 3\n");
+    scene_view view = look(CRV_PERSPECTIVE, eye, target, 0.0);
+    scene_gbuffer_request request = request_of(&view, WIDTH, HEIGHT);
+    scene_gbuffer g = render(s, &request);
+    crv_image image = crv_image_packed(rgb, WIDTH, HEIGHT, 3);
+    crv_image ao = crv_image_packed(accessibility, WIDTH, HEIGHT, 1);
+    for (int i = 0; i < PIXELS; i++)
+        accessibility[i] = (float)i / PIXELS;
+    assert_int_equal(scene_shade(s, &g, light, &ao, &image, 0, NULL), 0);
+    scene_gbuffer_free(&g);
+    scene_free(s);
+}
+
+/* Albedo 0.8 (sky accessibility + key). A gradient's integral is a sum over 256 heights,
+ * good to about 1e-5. */
+static void assert_floor(const scene_lighting *light, const double sky[3],
+                         const double key[3])
+{
+    float *buffer = calloc(4 * PIXELS, sizeof *buffer), *rgb = buffer + PIXELS;
+    assert_non_null(buffer);
+    shade_floor(light, buffer, rgb);
+    for (int i = 0; i < PIXELS; i++)
+        for (int c = 0; c < 3; c++) {
+            double expected = 0.8 * (sky[c] * (double)buffer[i] + key[c]);
+            if (fabs((double)rgb[3 * i + c] - expected) > 5e-5)
+                fail_msg("%g is not %g", (double)rgb[3 * i + c], expected);
+        }
+    free(buffer);
+}
+
+static const double none[3] = {0, 0, 0};
+
+static void test_lights_add_up(void **state)
+{
+    static const double constant[3] = {0.25, 0.5, 2.0}, painted[3] = {0.30, 0.36, 0.46};
+    static const double key[3] = {0.6 * 3.0, 0.6 * 2.0, 0.6};
+    scene_lighting l = scene_lighting_default();
+    (void)state;
+    memset(l.key_colour, 0, sizeof l.key_colour);
+    assert_floor(&l, painted, none);
+    l.sky = SCENE_SKY_CONSTANT;
+    for (int c = 0; c < 3; c++) {
+        l.constant[c] = (float)constant[c];
+        l.key_colour[c] = 3.0f - (float)c;
+    }
+    l.key_direction[0] = 8.0f; /* any length; 0.6 is the cosine to the floor's normal */
+    l.key_direction[1] = 6.0f;
+    assert_floor(&l, constant, key);
+    l.key_direction[1] = -6.0f; /* from below */
+    assert_floor(&l, constant, none);
+}
+
+/* The floor sees the zenith, wherever that is turned to. */
+static void test_sky_turns_with_its_up(void **state)
+{
+    static const double up[3] = {0.8 * 3 + 0.2, 0.8 * 2 + 0.2, 0.8 + 0.2};
+    static const double ground[3] = {0.25, 0.5, 0.75};
+    scene_lighting l = scene_lighting_default();
+    (void)state;
+    memset(l.key_colour, 0, sizeof l.key_colour);
+    l.sky = SCENE_SKY_GRADIENT;
+    for (int c = 0; c < 3; c++) {
+        l.zenith[c] = 3.0f - (float)c;
+        l.horizon[c] = 1.0f;
+        l.ground[c] = (float)ground[c];
+    }
+    assert_floor(&l, up, none);
+    l.sky_up[1] = 20.0f;
+    assert_floor(&l, up, none);
+    l.sky_up[1] = -3.0f;
+    assert_floor(&l, ground, none);
+    /* An environment 2 d.a + 1 in red, whose irradiance / pi is 4/3 n.a + 1: with the
+     * zenith turned to +X, what was in -X is above. */
+    l.sky = SCENE_SKY_ENVIRONMENT;
+    memset(l.environment, 0, sizeof l.environment);
+    l.environment[0][0] = (float)sqrt(4 * PI);
+    l.environment[3][0] = (float)(-2 * sqrt(4 * PI / 3)); /* a = -X */
+    l.sky_up[0] = 2.0f;
+    l.sky_up[1] = 0.0f;
+    assert_floor(&l, (const double[3]){7. / 3, 0, 0}, none);
+    l.sky_up[0] = 0.0f;
+    l.sky_up[1] = 1.0f;
+    assert_floor(&l, (const double[3]){1, 0, 0}, none);
+    l.sky_up[1] = -1.0f;
+    assert_floor(&l, (const double[3]){1, 0, 0}, none);
+}
+
+/* Each pixel of the background shows its direction's radiance. */
+static void test_background_directions(void **state)
+{
+    const picture *p = *state;
+    float rgb[3 * PIXELS], sky[3 * 16 * 8];
+    crv_image image = crv_image_packed(rgb, WIDTH, HEIGHT, 3);
+    scene_lighting l = scene_lighting_default();
+    int background = 0;
+    for (int i = 0; i < 3 * 16 * 8; i++)
+        sky[i] = (float)(i * 37 % 101) / 64.0f;
+    assert_int_equal(scene_sky_from_equirect(sky, 16, 8, "sky", &l, NULL), 0);
+    for (int kind = 1; kind <= 4; kind++) {
+        l.sky = kind == 4 ? SCENE_SKY_ENVIRONMENT : (scene_sky)kind;
+        l.picture = kind == 4 ? NULL : sky;
+        assert_int_equal(scene_shade(p->scene, &p->gbuffer, &l, NULL, &image, 0, NULL),
+                         0);
+        for (int i = 0; i < PIXELS; i++) {
+            ray r = ray_of_pixel(&p->gbuffer, i % WIDTH + 4, i / WIDTH + 4);
+            double length = sqrt(dot(r.direction, r.direction));
+            float direction[3], expected[3];
+            if (!is_background(p, i))
+                continue;
+            background++;
+            for (int k = 0; k < 3; k++)
+                direction[k] = (float)(r.direction[k] / length);
+            scene_sky_radiance(&l, direction, expected);
+            for (int c = 0; c < 3; c++)
+                assert_true(fabsf(rgb[3 * i + c] - expected[c]) < 1e-4f);
+        }
+    }
+    assert_true(background > 4 * 20);
+}
+
+static void test_default_light(void **state)
+{
+    const picture *p = *state;
+    static float rgb[3 * PIXELS];
+    const scene_lighting l = scene_lighting_default();
+    crv_image image = crv_image_packed(rgb, WIDTH, HEIGHT, 3);
+    assert_int_equal(scene_shade(p->scene, &p->gbuffer, &l, NULL, &image, 0, NULL), 0);
+    assert_memory_equal(rgb, p->plain, sizeof rgb);
+}
+
 static void test_refuses_other_sizes(void **state)
 {
     picture *p = *state;
@@ -127,10 +262,10 @@ static void test_refuses_other_sizes(void **state)
     crv_image wide = crv_image_packed(rgb, WIDTH + 1, HEIGHT, 3);
     crv_image grey = crv_image_packed(rgb, WIDTH, HEIGHT, 1);
     crv_image good = crv_image_packed(rgb, WIDTH, HEIGHT, 3);
-    assert_int_equal(scene_shade(p->scene, &p->gbuffer, NULL, &wide, 0, &log), -1);
+    assert_int_equal(scene_shade(p->scene, &p->gbuffer, NULL, NULL, &wide, 0, &log), -1);
     assert_error_line(&m, "picture");
-    assert_int_equal(scene_shade(p->scene, &p->gbuffer, NULL, &grey, 0, NULL), -1);
-    assert_int_equal(scene_shade(p->scene, &p->gbuffer, &good, &good, 0, NULL), -1);
+    assert_int_equal(scene_shade(p->scene, &p->gbuffer, NULL, NULL, &grey, 0, NULL), -1);
+    assert_int_equal(scene_shade(p->scene, &p->gbuffer, NULL, &good, &good, 0, NULL), -1);
 }
 
 int main(void)
@@ -139,6 +274,10 @@ int main(void)
                                        cmocka_unit_test(test_values_are_sound),
                                        cmocka_unit_test(test_key_light_is_not_darkened),
                                        cmocka_unit_test(test_background_is_sky),
+                                       cmocka_unit_test(test_lights_add_up),
+                                       cmocka_unit_test(test_sky_turns_with_its_up),
+                                       cmocka_unit_test(test_background_directions),
+                                       cmocka_unit_test(test_default_light),
                                        cmocka_unit_test(test_refuses_other_sizes)};
     return cmocka_run_group_tests(tests, make_picture, free_picture);
 }

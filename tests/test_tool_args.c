@@ -65,8 +65,11 @@ static const arg rows[] = {
 static const arg_table table = ARG_TABLE("All", rows);
 static const arg_table *const tables[] = {&table, &args_threads, &args_output_lines,
                                           NULL};
-static const command test_command = {
-    .name = "test", .tables = tables, .library_options = true};
+static const command test_command = {.name = "test",
+                                     .tables = tables,
+                                     .library_options = true,
+                                     .method_flag = "--kind",
+                                     .method_of_flag = "vao"};
 
 #define PARSE(s, ...) parse((s), (const char *[]){__VA_ARGS__, NULL})
 
@@ -133,6 +136,44 @@ static void test_library_options(void **state)
     assert_null(s.common.options.filter);
 }
 
+/* Method, preset, single options, whatever their order. */
+static void test_presets(void **state)
+{
+    crv_options expected;
+    settings s;
+
+    (void)state;
+    assert_int_equal(crv_options_init(&expected, sizeof expected, "hsao"), CRV_OK);
+    assert_int_equal(crv_options_preset(&expected, CRV_PRESET_ULTRA), CRV_OK);
+    assert_int_equal(PARSE(&s, "--steps", "3", "--preset", "ultra", "in", "-o", "out",
+                           "--method=hsao"),
+                     EXIT_DONE);
+    assert_string_equal(s.common.options.method->name, "hsao");
+    assert_int_equal(s.common.options.steps, 3);
+    assert_int_not_equal(expected.steps, 3);
+    assert_int_equal(s.common.options.directions, expected.directions);
+    assert_int_equal(s.common.options.normal_rays, expected.normal_rays);
+    /* The last one counts, and only that. */
+    assert_int_equal(PARSE(&s, "--preset=ultra", "--preset=medium", "in", "-o", "out"),
+                     EXIT_DONE);
+    assert_int_equal(crv_options_init(&expected, sizeof expected, "hbao"), CRV_OK);
+    assert_int_equal(s.common.options.directions, expected.directions);
+}
+
+static void test_a_flag_brings_its_method(void **state)
+{
+    settings s;
+
+    (void)state;
+    assert_int_equal(PARSE(&s, "in", "-o", "out", "--kind", "first"), EXIT_DONE);
+    assert_string_equal(s.common.options.method->name, "vao");
+    assert_int_equal(PARSE(&s, "in", "-o", "out", "--kind", "first", "--method", "ssao"),
+                     EXIT_DONE);
+    assert_string_equal(s.common.options.method->name, "ssao");
+    assert_int_equal(PARSE(&s, "-o", "out", "--", "--kind"), EXIT_DONE);
+    assert_string_equal(s.common.options.method->name, "hbao");
+}
+
 static void test_after_two_dashes_all_is_a_name(void **state)
 {
     settings s;
@@ -176,6 +217,9 @@ static void test_wrong_usage(void **state)
         {"--radius", "12abc"},
         {"--method", "hbaoo"},
         {"--filter", "blur"},
+        {"--preset", "hihg"},
+        {"--preset", ""},
+        {"--preset", "-1"},
         {"--threads", "1025"},
         {"--none", "such"},
         {"-x", "1"},
@@ -238,6 +282,8 @@ int main(void)
         cmocka_unit_test(test_defaults),
         cmocka_unit_test(test_values),
         cmocka_unit_test(test_library_options),
+        cmocka_unit_test(test_presets),
+        cmocka_unit_test(test_a_flag_brings_its_method),
         cmocka_unit_test(test_after_two_dashes_all_is_a_name),
         cmocka_unit_test(test_wrong_usage),
         cmocka_unit_test(test_frame_ranges),

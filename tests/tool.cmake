@@ -3,10 +3,15 @@
 set(tool_dir ${PROJECT_SOURCE_DIR}/tools/crevice)
 
 crevice_test(test_tool_metrics SOURCES test_tool_metrics.c ${tool_dir}/metrics.c)
+crevice_test(test_tool_metrics_fit SOURCES test_tool_metrics_fit.c ${tool_dir}/metrics_fit.c)
+crevice_test(test_tool_metrics_flip SOURCES test_tool_metrics_flip.c ${tool_dir}/flip.c)
+crevice_test(test_tool_metrics_heatmap
+    SOURCES test_tool_metrics_heatmap.c ${tool_dir}/heatmap.c)
 crevice_test(test_tool_args
     SOURCES test_tool_args.c ${tool_dir}/args.c ${tool_dir}/values.c ${tool_dir}/report.c
             ${tool_dir}/frames.c)
-foreach(test test_tool_metrics test_tool_args)
+foreach(test test_tool_metrics test_tool_metrics_fit test_tool_metrics_flip
+        test_tool_metrics_heatmap test_tool_args)
     target_include_directories(${test} PRIVATE ${tool_dir})
 endforeach()
 
@@ -20,6 +25,9 @@ endfunction()
 
 tool_test(tool_help)
 tool_test(tool_render)
+tool_test(tool_methods)
+tool_test(tool_relief)
+tool_test(tool_light)
 tool_test(tool_ao)
 tool_test(tool_compare)
 tool_test(tool_errors)

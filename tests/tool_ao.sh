@@ -5,7 +5,7 @@
 size="--size 240x135"
 
 # A G-buffer on disk holds all that render needs: camera, guard band, layers, normals.
-for extra in "" "--layers 2 --layer-kind back" "--normals-from face --guard-px 0"; do
+for extra in "" "--layers 2" "--layers 3 --layer-kind back" "--normals-from face --guard-px 0"; do
     # shellcheck disable=SC2086
     good render builtin:courtyard $size $extra -o direct.exr --radius 0.4
     # shellcheck disable=SC2086
@@ -18,6 +18,22 @@ for extra in "" "--layers 2 --layer-kind back" "--normals-from face --guard-px 0
     at_most "$(number rmse)" 0.002 "roundtrip ($extra): RMSE"
     [ "$(number pixels)" -eq 32400 ] || fail "the result is not the inner rectangle"
 done
+
+# What layers mean is in the file, and --layer-kind says otherwise.
+for kind in back next; do
+    # shellcheck disable=SC2086
+    good gbuffer builtin:courtyard $size --layers 2 --layer-kind $kind -o $kind.exr
+    good ao $kind.exr -o $kind.found.exr --method vao --radius 0.4
+    for other in surfaces solid; do
+        good ao $kind.exr -o $kind.$other.exr --method vao --radius 0.4 --layer-kind $other
+    done
+    good compare --json $kind.solid.exr $kind.surfaces.exr
+    at_least "$(number rmse)" 0.001 "surfaces and solids differ"
+done
+good compare --json back.found.exr back.solid.exr
+at_most "$(number max_error)" 0 "back faces are found to be solid"
+good compare --json next.found.exr next.surfaces.exr
+at_most "$(number max_error)" 0 "next surfaces are found to be surfaces"
 good gbuffer builtin:groove $size -o groove.exr
 good ao groove.exr -o groove_ao.exr --radius 0.4
 good render builtin:groove $size -o groove_direct.exr --radius 0.4

@@ -40,6 +40,9 @@ render 2 "radius: '12abc'" $m --radius 12abc
 render 2 "method: .*did you mean 'hbao'" $m --method hbaoo
 render 2 "filter: .*did you mean 'gauss5'" $m --filter gaus5
 render 2 "falloff: .*did you mean 'linear'" $m --falloff liner
+render 2 "preset: .*did you mean ultra" $m --preset ulrta
+render 2 'preset' $m --preset
+render 2 'did you mean --preset?' $m --prset low
 render 2 'did you mean --radius?' $m --radus 1
 render 2 'did you mean --max-radius-px?' $m --max-radius 9
 render 2 'no such option' $m --frobnicate 9
@@ -104,6 +107,44 @@ ao 2 'IN: standard input' - --vfov 60
 ao 2 'radius: 0 ' frame.exr --radius 0
 bad 1 'nowhere/out.exr: ' ao frame.exr -o nowhere/out.exr
 bad 2 'did you mean --json?' compare frame.exr frame.exr --jsno
+
+# Relief and light.
+pfm map.pfm 2 1 0 1
+render 2 '--height-map: is not read by hbao; give .*vao' $m --height-map map.pfm \
+    --height-scale 1 --method hbao
+render 2 '--height-map: has no scale' $m --height-map map.pfm
+render 2 '--height-scale: "inf"' $m --height-map map.pfm --height-scale inf
+render 2 '--height-scale: is for' $m --height-scale 1
+render 2 '--height-wrap: is for' $m --height-wrap clamp
+render 2 '--height-wrap: ' $m --height-map map.pfm --height-scale 1 --height-wrap clmap
+render 1 'missing.png: ' $m --height-map missing.png --height-scale 1
+render 1 'text.png: ' $m --height-map text.png --height-scale 1
+render 1 'frame.exr: has several channels' $m --height-map frame.exr --height-scale 1
+cat >bare.obj <<'OBJ'
+v 0 0 0
+v 1 0 0
+v 0 1 0
+f 1 2 3
+OBJ
+render 1 'bare.obj: .*texture coordinates' bare.obj --height-map map.pfm --height-scale 1
+render 1 'bare.obj: .*texture coordinates' bare.obj --height-map map.pfm \
+    --height-scale 1 --shade lit-no-ao
+render 2 '--sky: lights no picture' $m --sky gradient
+render 2 '--key-light: lights no picture' $m --key-light none
+render 2 '--zenith: lights no picture' $m --zenith 0,1,0
+render 2 '--zenith: has no length' $m --shade lit --zenith 0,0,0
+render 2 '--sky: .*did you mean gradient' $m --shade lit --sky gradeint
+render 2 '--sky: ' $m --shade lit --sky picture.png
+render 2 '--sky: ' $m --shade lit --sky constant:1,2
+render 2 '--sky: ' $m --shade lit --sky constant:1,-1,1
+render 2 '--sky: ' $m --shade lit --sky constant:nan,1,1
+render 1 'missing.exr: ' $m --shade lit --sky missing.exr
+render 1 'frame.exr: .*"R"' $m --shade lit --sky frame.exr
+render 2 '--key-light: ' $m --shade lit --key-light nonne
+render 2 '--key-light: ' $m --shade lit --key-light 10
+render 2 '--key-light: ' $m --shade lit --key-light 10,91
+render 2 '--key-light: ' $m --shade lit --key-light 10,20,-1
+ao 2 '--layer-kind: .*did you mean solid' frame.exr --layer-kind solids
 
 # A name with a line break does not make two lines of one.
 bad 1 'missing?' ao "missing

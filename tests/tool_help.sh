@@ -25,7 +25,7 @@ flags=$(sed -n 's/.*"flag":[[:space:]]*"\(--[a-z0-9-]*\)".*/\1/p' stdout.txt | s
 [ "$(echo "$flags" | wc -l)" -ge 10 ] || fail "few flags in methods --json: $flags"
 for command in render ao; do
     good help $command
-    for flag in $flags --method --filter; do
+    for flag in $flags --method --preset --filter; do
         grep -q "^  $flag " stdout.txt || fail "$flag is not in the help of $command"
     done
 done
@@ -38,6 +38,8 @@ assert "hbao" in names, names
 assert {"gauss5", "bilateral13", "box4"} <= {f["name"] for f in listing["filters"]}
 for entry in listing["methods"] + listing["filters"]:
     assert entry["paper"] and entry["title"]
+    if entry in listing["methods"]:
+        assert list(entry["presets"]) == ["low", "medium", "high", "ultra", "paper"], entry
     for option in entry["options"]:
         if "min" in option:
             assert option["min"] <= option["default"] <= option["max"], option
@@ -45,6 +47,17 @@ for entry in listing["methods"] + listing["filters"]:
             assert option["default"] in option["choices"], option
 ' <stdout.txt || fail "methods --json"
 fi
+# Help is of the chosen method: its presets, its own defaults.
+for method in hsao containment; do
+    good methods $method
+    sed -n 's/^ *paper  *//p' stdout.txt >preset.txt
+    [ -s preset.txt ] || fail "methods $method lacks its presets"
+    good render --method $method --help
+    grep -q "^ *paper  *$(sed 's/ [a-z_]*=[^ ]*$//' preset.txt)" stdout.txt ||
+        fail "render --method $method --help lacks its presets"
+done
+grep -A 2 '^  --samples' stdout.txt | grep -q 'default 32' ||
+    fail "containment begins with 32 samples"
 good methods
 grep -q '^hbao: ' stdout.txt || fail "methods does not list hbao"
 good methods hbao

@@ -23,10 +23,9 @@ typedef enum crv_projection { CRV_PERSPECTIVE = 0, CRV_ORTHOGRAPHIC = 1 } crv_pr
  */
 typedef struct crv_camera {
     crv_projection projection;
-    float fx_px; /* > 0: focal length (perspective) or pixels per scene unit
-                    (orthographic) */
-    float
-        fy_px; /* > 0: the same along y; differs from fx_px where pixels are not square */
+    /* Focal length in pixels (perspective), or pixels per scene unit (orthographic); > 0.
+     * The two differ where pixels are not square. */
+    float fx_px, fy_px;
     float cx_px; /* principal point, from the left edge; may lie outside the image */
     float cy_px; /* principal point, from the top edge */
     /* Rotation from world to view space, row-major: view = M * world. Read only for

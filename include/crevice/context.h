@@ -73,6 +73,34 @@ CRV_API crv_status crv_plan_run(crv_plan *plan, crv_gbuffer *gbuffer,
 CRV_API crv_status crv_plan_filter(crv_plan *plan, crv_gbuffer *gbuffer,
                                    const crv_image *input, const crv_image *result);
 
+/* The most subpixel samples that crv_multisample_gather() takes. */
+#define CRV_MAX_SUBSAMPLES 16
+
+/*
+ * Accessibility for a frame with several depth samples in each pixel, for compositing
+ * before they are resolved (McGuire et al. 2011). A plan gives a pixel one value, that of
+ * the one depth in its G-buffer; here every sample gathers from its pixel and the four
+ * beside it, weighted by how near their depth is to the sample's own: a sample of the
+ * floor at a column's edge takes the floor's accessibility. Where none is near, the
+ * nearest in depth counts alone. Background samples, and samples without a surface
+ * around, get 1.
+ *
+ * gbuffer: the frame, with camera and depth layer 0. accessibility: one channel, as
+ * crv_plan_run() wrote it; values that are not finite are taken as 1. sample_depth: 2 to
+ * CRV_MAX_SUBSAMPLES channels, one for each sample, of the same size, which is that
+ * inside the guard band. format: what these depths are, NULL planar; radial ones are
+ * taken along the pixel's centre. depth_range: depth difference at which a neighbour
+ * stops counting, > 0, scene units; filter_depth times the radius of the options fits.
+ * result: as many channels as sample_depth; may not share memory with accessibility, but
+ * may be sample_depth itself. Allocates nothing; the same bits for any number of threads.
+ * Errors: INVALID_ARGUMENT; NOT_READY where the G-buffer lacks its camera or layer 0.
+ */
+CRV_API crv_status crv_multisample_gather(crv_gbuffer *gbuffer,
+                                          const crv_image *accessibility,
+                                          const crv_image *sample_depth,
+                                          const crv_depth_format *format,
+                                          float depth_range, const crv_image *result);
+
 #ifdef __cplusplus
 }
 #endif

@@ -24,12 +24,11 @@ struct crv_context;
 /* What the numbers in a depth image mean. */
 typedef enum crv_depth_encoding {
     CRV_DEPTH_PLANAR = 0, /* distance along the viewing axis, scene units */
-    CRV_DEPTH_RADIAL =
-        1, /* distance from the eye, scene units (orthographic: as planar) */
-    CRV_DEPTH_HARDWARE =
-        2, /* depth buffer in [0, 1], 0 at near, 1 at far. This is also what
-              an OpenGL depth texture holds with the default glDepthRange */
-    CRV_DEPTH_REVERSED = 3, /* depth buffer in [0, 1], 1 at near, 0 at far */
+    CRV_DEPTH_RADIAL = 1, /* distance from the eye (orthographic: as planar) */
+    /* A depth buffer in [0, 1], 0 at near, 1 at far. An OpenGL depth texture holds the
+     * same with the default glDepthRange. */
+    CRV_DEPTH_HARDWARE = 2,
+    CRV_DEPTH_REVERSED = 3, /* a depth buffer in [0, 1], 1 at near, 0 at far */
     CRV_DEPTH_DISPARITY = 4 /* 1 / planar depth; 0 is background */
 } crv_depth_encoding;
 
@@ -38,9 +37,9 @@ typedef struct crv_depth_format {
     crv_depth_encoding encoding;
     float z_near; /* > 0 (orthographic: any), scene units; hardware and reversed only */
     float z_far;  /* > z_near, INFINITY for an infinite projection (perspective only) */
-    float background; /* planar and radial: this depth and all beyond is background. > 0,
-                         or INFINITY where only non-finite depth is. Some renderers write
-                         1e10 */
+    /* Planar and radial: this depth and all beyond is background. > 0, or INFINITY where
+     * only non-finite depth is. Some renderers write 1e10. */
+    float background;
 } crv_depth_format;
 
 /* Planar depth without a background threshold: what most callers want. Thread-safe. */
@@ -54,10 +53,11 @@ typedef enum crv_normal_space {
 
 /* What depth layers mean to the methods that march or test points. */
 typedef enum crv_layers {
-    CRV_LAYERS_SURFACES = 0, /* every layer may block what lies behind it; nothing is
-                                known of thickness */
-    CRV_LAYERS_SOLID = 1 /* layers come in pairs, 0 and 1, 2 and 3: the front and the back
-                            of a solid, which blocks in between */
+    /* Every layer may block what lies behind it; nothing is known of thickness. */
+    CRV_LAYERS_SURFACES = 0,
+    /* Layers come in pairs, 0 and 1, 2 and 3: the front and the back of a solid, which
+     * blocks in between. */
+    CRV_LAYERS_SOLID = 1
 } crv_layers;
 
 /* Sizes of a G-buffer. Fill it with crv_gbuffer_desc_init(), then change what differs. */
@@ -143,14 +143,14 @@ typedef enum crv_wrap { CRV_WRAP_REPEAT = 0, CRV_WRAP_CLAMP = 1 } crv_wrap;
  * during the call only.
  */
 typedef struct crv_height_field {
-    crv_image uv; /* 2 channels: texture coordinates, u to the right and v down over the
-                     map, 0 to 1; NaN where a pixel has none */
-    crv_image
-        tangent; /* 3 channels, view space: change of the point with u, scene units */
-    crv_image bitangent; /* 3 channels: the same with v */
-    crv_image height;    /* 1 channel */
-    float scale; /* scene units for a height of 1, along the surface's outer normal;
-                    finite */
+    /* 2 channels: texture coordinates, u to the right and v down over the map, 0 to 1;
+     * NaN where a pixel has none. */
+    crv_image uv;
+    /* 3 channels each, view space: change of the point with u and with v, scene units. */
+    crv_image tangent, bitangent;
+    crv_image height; /* 1 channel */
+    /* Scene units for a height of 1, along the surface's outer normal; finite. */
+    float scale;
     crv_wrap wrap;
 } crv_height_field;
 

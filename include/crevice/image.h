@@ -26,9 +26,10 @@ extern "C" {
  */
 typedef struct crv_image {
     float *data;
-    int32_t width;            /* px, 1 to CRV_MAX_SIZE */
-    int32_t height;           /* px, 1 to CRV_MAX_SIZE */
-    int32_t channels;         /* 1 (depth, accessibility) or 3 (normals) */
+    int32_t width;    /* px, 1 to CRV_MAX_SIZE */
+    int32_t height;   /* px, 1 to CRV_MAX_SIZE */
+    int32_t channels; /* 1 (depth, accessibility), 2 (texture coordinates), 3 (normals),
+                         or one for each subpixel sample */
     ptrdiff_t row_stride;     /* bytes from a row to the one below */
     ptrdiff_t pixel_stride;   /* bytes from a pixel to the one on its right */
     ptrdiff_t channel_stride; /* bytes from a component to the next */

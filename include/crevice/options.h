@@ -36,25 +36,27 @@ typedef enum crv_falloff {
 
 /* How horizon methods apply the falloff. */
 typedef enum crv_attenuation {
-    CRV_ATTENUATION_SLAB = 0, /* each occluder weighs the elevations that it is first to
-                                 block: the exact integral of W */
-    CRV_ATTENUATION_HORIZON =
-        1 /* the whole slice weighs as its highest occluder does: eq. 3 of
-             Bavoil, Sainz, Dimitrov 2008, read literally */
+    /* Each occluder weighs the elevations that it is first to block: the exact integral
+     * of W. */
+    CRV_ATTENUATION_SLAB = 0,
+    /* The whole slice weighs as its highest occluder does: eq. 3 of Bavoil, Sainz,
+     * Dimitrov 2008, read literally. */
+    CRV_ATTENUATION_HORIZON = 1
 } crv_attenuation;
 
 /* What vao divides the open length of its pipes by. */
 typedef enum crv_normaliser {
-    CRV_NORMALISER_WEIGHTED =
-        0, /* the length of the chords: weighted importance sampling */
-    CRV_NORMALISER_ANALYTIC = 1 /* the exact volume of the tangent sphere */
+    /* The length of the chords: weighted importance sampling. */
+    CRV_NORMALISER_WEIGHTED = 0,
+    /* The exact volume of the tangent sphere. */
+    CRV_NORMALISER_ANALYTIC = 1
 } crv_normaliser;
 
 /* What tells inside from outside, for the methods that test points. */
 typedef enum crv_characteristic {
-    CRV_CHARACTERISTIC_PRODUCT =
-        0, /* outside both the depth buffer and the G-buffer's height
-              field or implicit surface, where it has one */
+    /* Outside both the depth buffer and the G-buffer's height field or implicit surface,
+     * where it has one. */
+    CRV_CHARACTERISTIC_PRODUCT = 0,
     CRV_CHARACTERISTIC_DEPTH = 1, /* the depth buffer alone */
     CRV_CHARACTERISTIC_FIELD = 2  /* the height field or implicit surface alone */
 } crv_characteristic;
@@ -99,43 +101,51 @@ CRV_API int32_t crv_filter_count(void);
 CRV_API const crv_filter *crv_filter_at(int32_t index);
 CRV_API const crv_filter *crv_filter_find(const char *name);
 
-/* Everything that steers a run. Begin with crv_options_init(); a zeroed struct is not
+/*
+ * Everything that steers a run. Begin with crv_options_init(); a zeroed struct is not
  * valid. The option table holds default, range and help of each. Bool options are int32_t
- * 0 or 1. */
+ * 0 or 1. crv_option_applies() tells which method reads what.
+ */
 typedef struct crv_options {
-    size_t struct_size;       /* set by crv_options_init() */
+    size_t struct_size; /* set by crv_options_init() */
+
     const crv_method *method; /* default hbao */
     const crv_filter *filter; /* NULL: none. Default bilateral13 */
-    float radius;             /* radius of influence, scene units */
+
+    float radius; /* R, radius of influence, scene units */
     crv_falloff falloff;
-    float tau;          /* exponential falloff: decay over one radius */
-    float u;            /* alchemy falloff: where it peaks, in radii */
+    float tau; /* exponential falloff: decay over one radius */
+    float u;   /* alchemy falloff: where it peaks, in radii */
+
     int32_t directions; /* Nd */
     int32_t steps;      /* Ns, per direction */
-    float bias_deg;     /* raises the tangent: occluders lower than this over the surface
-                           are ignored */
+    /* Raises hbao's tangent: occluders that rise less over the surface are ignored. */
+    float bias_deg;
     crv_attenuation attenuation;
-    int32_t normal_rays; /* Nn, per direction */
-    int32_t
-        growing_sphere; /* hsao deflects only towards occluders nearer than the step */
+    int32_t normal_rays;    /* Nn, per direction */
+    int32_t growing_sphere; /* hsao deflects only towards what is nearer than the step */
+    /* hbao samples the projected radius no farther than this; 0: no cap. */
+    float max_radius_px;
+
     int32_t samples;    /* n: points, lines or pipes */
     int32_t bands;      /* alchemy: levels of detail of the sample count */
     float band_px;      /* alchemy: projected radius from which all samples are taken */
-    float alchemy_bias; /* beta of eq. 10 */
-    float alchemy_eps;  /* eps of eq. 10, in radii squared */
-    crv_normaliser normaliser; /* vao */
-    crv_characteristic characteristic;
-    int32_t rescale;     /* ssao: doubles A, so that a wall is white */
-    float max_radius_px; /* the projected radius is sampled no farther than this; 0: no
-                            cap */
-    float intensity;     /* A' = max(0, 1 - intensity (1 - A))^contrast */
+    float alchemy_bias; /* alchemy: beta of eq. 10 */
+    float alchemy_eps;  /* alchemy: eps of eq. 10, in radii squared */
+    crv_normaliser normaliser;         /* vao */
+    crv_characteristic characteristic; /* vao, containment */
+    int32_t rescale;                   /* ssao: doubles A, so that a wall is white */
+
+    float intensity; /* A' = max(0, 1 - intensity (1 - A))^contrast */
     float contrast;
     int32_t noise_size; /* edge of the noise tile, px */
-    int32_t seed;       /* another noise tile */
-    float
-        filter_depth; /* depth deviation at which a filter tap stops counting, in radii */
-    int32_t filter_slope; /* measure that deviation from the surface's slope, not from the
-                             centre's depth (what the papers do) */
+    int32_t seed;       /* another noise tile and sample pattern */
+
+    /* Depth deviation at which a filter tap stops counting, in radii. */
+    float filter_depth;
+    /* Measure that deviation from the surface's slope; 0: from the centre's depth, as the
+     * papers do. */
+    int32_t filter_slope;
 } crv_options;
 
 /* Sets every option to its default for the named method (NULL: hbao). Pass sizeof
@@ -156,8 +166,7 @@ typedef enum crv_option_type {
     CRV_OPTION_FLOAT = 0,
     CRV_OPTION_INT = 1,
     CRV_OPTION_BOOL = 2,
-    CRV_OPTION_CHOICE =
-        3 /* an enum; choices lists the names, in the order of its values */
+    CRV_OPTION_CHOICE = 3 /* an enum, by name */
 } crv_option_type;
 
 /* A row of the table. Static storage. */

@@ -10,37 +10,32 @@ crv_depth_format crv_depth_format_planar(void)
     return (crv_depth_format){CRV_DEPTH_PLANAR, 0, 0, INFINITY};
 }
 
-/*
- * A hardware depth v in [0, 1] is affine in 1/d (perspective) or in d (orthographic):
- *     d = 1 / (a + b v)   or   d = a + b v.
- */
 typedef struct depth_job {
     crv_gbuffer *gbuffer;
     const crv_image *image;
     int32_t layer;
-    crv_depth_format format;
-    double a, b;
+    crv__depth_map map;
 } depth_job;
 
-static double planar_of_hardware(const depth_job *job, double v)
+static double planar_of_hardware(const crv__depth_map *map, double v)
 {
-    const double far_value = job->format.encoding == CRV_DEPTH_REVERSED ? 0 : 1;
+    const double far_value = map->format.encoding == CRV_DEPTH_REVERSED ? 0 : 1;
     if (v == far_value || !(v >= 0 && v <= 1))
         return INFINITY;
-    const double affine = job->a + job->b * v;
-    if (job->gbuffer->camera.projection == CRV_ORTHOGRAPHIC)
+    const double affine = map->a + map->b * v;
+    if (map->camera->projection == CRV_ORTHOGRAPHIC)
         return affine;
     return affine > 0 ? 1 / affine : INFINITY;
 }
 
-static double planar_depth(const depth_job *job, int32_t x, int32_t y, double v)
+static double planar_depth(const crv__depth_map *map, int32_t x, int32_t y, double v)
 {
-    const crv_camera *c = &job->gbuffer->camera;
-    switch (job->format.encoding) {
+    const crv_camera *c = map->camera;
+    switch (map->format.encoding) {
     case CRV_DEPTH_PLANAR:
-        return v < (double)job->format.background ? v : INFINITY;
+        return v < (double)map->format.background ? v : INFINITY;
     case CRV_DEPTH_RADIAL: {
-        if (!(v < (double)job->format.background))
+        if (!(v < (double)map->format.background))
             return INFINITY;
         if (c->projection == CRV_ORTHOGRAPHIC)
             return v;
@@ -50,11 +45,17 @@ static double planar_depth(const depth_job *job, int32_t x, int32_t y, double v)
     }
     case CRV_DEPTH_HARDWARE:
     case CRV_DEPTH_REVERSED:
-        return planar_of_hardware(job, v);
+        return planar_of_hardware(map, v);
     case CRV_DEPTH_DISPARITY:
         return 1 / v;
     }
     return INFINITY;
+}
+
+float crv__depth_map_apply(const crv__depth_map *map, int32_t x, int32_t y, float v)
+{
+    const float d = (float)planar_depth(map, x, y, (double)v);
+    return d > 0 && d < INFINITY ? d : INFINITY; /* NaN fails both */
 }
 
 static void convert_row(void *data, uint32_t row)
@@ -62,26 +63,24 @@ static void convert_row(void *data, uint32_t row)
     const depth_job *job = data;
     const int32_t y = (int32_t)row;
     float *out = crv__plane_at(&job->gbuffer->depth[job->layer], 0, y);
-    for (int32_t x = 0; x < job->gbuffer->desc.width; x++) {
-        const float d =
-            (float)planar_depth(job, x, y, (double)*crv_image_at(job->image, x, y, 0));
-        out[x] = d > 0 && d < INFINITY ? d : INFINITY; /* NaN fails both */
-    }
+    for (int32_t x = 0; x < job->gbuffer->desc.width; x++)
+        out[x] =
+            crv__depth_map_apply(&job->map, x, y, *crv_image_at(job->image, x, y, 0));
 }
 
 /* The affine map of a hardware depth. Standard: v = 0 at near, 1 at far; reversed: 1 - v.
  */
-static void hardware_coefficients(depth_job *job)
+static void hardware_coefficients(crv__depth_map *map)
 {
-    const double near_depth = (double)job->format.z_near,
-                 far_depth = (double)job->format.z_far;
-    const int orthographic = job->gbuffer->camera.projection == CRV_ORTHOGRAPHIC;
+    const double near_depth = (double)map->format.z_near,
+                 far_depth = (double)map->format.z_far;
+    const int orthographic = map->camera->projection == CRV_ORTHOGRAPHIC;
     const double at_near = orthographic ? near_depth : 1 / near_depth;
     const double at_far =
         orthographic ? far_depth : 1 / far_depth; /* 0 where far is infinite */
-    const int reversed = job->format.encoding == CRV_DEPTH_REVERSED;
-    job->a = reversed ? at_far : at_near;
-    job->b = reversed ? at_near - at_far : at_far - at_near;
+    const int reversed = map->format.encoding == CRV_DEPTH_REVERSED;
+    map->a = reversed ? at_far : at_near;
+    map->b = reversed ? at_near - at_far : at_far - at_near;
 }
 
 static crv_status check_format(const crv_gbuffer *g, const crv_depth_format *format)
@@ -112,6 +111,20 @@ static crv_status check_format(const crv_gbuffer *g, const crv_depth_format *for
         (double)format->z_near, (double)format->z_far);
 }
 
+crv_status crv__depth_map_init(crv__depth_map *map, const crv_gbuffer *g,
+                               const crv_depth_format *format)
+{
+    *map = (crv__depth_map){.camera = &g->camera,
+                            .format = format ? *format : crv_depth_format_planar()};
+    const crv_status status = check_format(g, &map->format);
+    if (status)
+        return status;
+    if (map->format.encoding == CRV_DEPTH_HARDWARE
+        || map->format.encoding == CRV_DEPTH_REVERSED)
+        hardware_coefficients(map);
+    return CRV_OK;
+}
+
 crv_status crv_gbuffer_set_depth(crv_gbuffer *g, int32_t layer, const crv_image *image,
                                  const crv_depth_format *format)
 {
@@ -128,17 +141,13 @@ crv_status crv_gbuffer_set_depth(crv_gbuffer *g, int32_t layer, const crv_image 
         crv__image_check(logger, "depth", image, g->desc.width, g->desc.height, 1, 0);
     if (status)
         return status;
-    depth_job job = {.gbuffer = g,
-                     .image = image,
-                     .layer = layer,
-                     .format = format ? *format : crv_depth_format_planar()};
-    status = check_format(g, &job.format);
+    depth_job job = {.gbuffer = g, .image = image, .layer = layer};
+    status = crv__depth_map_init(&job.map, g, format);
     if (status)
         return status;
-    if (job.format.encoding == CRV_DEPTH_HARDWARE
-        || job.format.encoding == CRV_DEPTH_REVERSED)
-        hardware_coefficients(&job);
     crv__run_parallel(g->context, (uint32_t)g->desc.height, convert_row, &job);
     g->has_depth |= 1u << layer;
+    if (layer == 0)
+        g->normals_ready = 0; /* those made from the depth before are out of date */
     return CRV_OK;
 }

@@ -50,6 +50,25 @@ static inline crv__vec3 crv__normal_at(const crv__frame *f, int32_t x, int32_t y
                        *crv__plane_at(&f->normal[2], x, y)};
 }
 
+/* A vector of the image or of a tangent plane. */
+typedef struct crv__vec2 {
+    float x, y;
+} crv__vec2;
+
+/* (x, y) turned by the texel's rotation. */
+static inline crv__vec2 crv__turned(const crv__noise_texel *noise, float x, float y)
+{
+    return (crv__vec2){x * noise->cos_alpha - y * noise->sin_alpha,
+                       x * noise->sin_alpha + y * noise->cos_alpha};
+}
+
+/* The k-th of the equally spaced directions, turned by the texel's rotation. */
+static inline crv__vec2 crv__direction(const crv__frame *f, const crv__noise_texel *noise,
+                                       int32_t k)
+{
+    return crv__turned(noise, f->directions[2 * k], f->directions[2 * k + 1]);
+}
+
 /* A jitter in [0, 1) for the k-th of several strata walked at one pixel: the texel's own,
  * moved on by the golden ratio, so that all k of all texels cover the interval evenly. */
 static inline float crv__stratum(const crv__noise_texel *noise, int32_t k)

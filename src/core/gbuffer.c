@@ -210,8 +210,12 @@ crv_status crv__gbuffer_prepare(crv_gbuffer *g)
             missing);
     if (!g->normals_ready) {
         crv__run_parallel(g->context, (uint32_t)g->desc.height, finish_row, g);
-        crv__height_field_finish(g);
         g->normals_ready = 1;
+        g->relief_ready = 0;
+    }
+    if (!g->relief_ready) {
+        crv__height_field_finish(g);
+        g->relief_ready = 1;
     }
     return CRV_OK;
 }

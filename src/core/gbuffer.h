@@ -19,8 +19,27 @@ struct crv_gbuffer {
     crv__plane depth[CRV_MAX_LAYERS];
     crv__plane normal[3];
     int32_t has_field;
-    crv__field field; /* its planes live as long as the G-buffer */
+    int32_t relief_ready; /* field.relief_normal[] belongs to field and normal[] */
+    crv__field field;     /* its planes live as long as the G-buffer */
 };
+
+/*
+ * What turns the numbers of a depth image into planar depth (depth.c). A hardware depth v
+ * in [0, 1] is affine in 1/d (perspective) or in d (orthographic): d = 1 / (a + b v) or
+ * d = a + b v.
+ */
+typedef struct crv__depth_map {
+    const crv_camera *camera;
+    crv_depth_format format;
+    double a, b;
+} crv__depth_map;
+
+/* format NULL: planar. INVALID_ARGUMENT with a line where it makes no sense. */
+crv_status crv__depth_map_init(crv__depth_map *map, const crv_gbuffer *gbuffer,
+                               const crv_depth_format *format);
+
+/* Planar depth of the value v at pixel (x, y) of the buffers; background INFINITY. */
+float crv__depth_map_apply(const crv__depth_map *map, int32_t x, int32_t y, float v);
 
 /* INVALID_ARGUMENT with a line unless the sizes make sense. */
 crv_status crv__gbuffer_desc_check(const crv_logger *logger,

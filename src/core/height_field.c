@@ -142,7 +142,7 @@ crv_status crv_gbuffer_set_height_field(crv_gbuffer *g, const crv_height_field *
     g->field.scale = field->scale;
     g->field.wrap = field->wrap;
     g->has_field = 1;
-    g->normals_ready = 0;
+    g->relief_ready = 0;
     return CRV_OK;
 }
 

@@ -77,7 +77,7 @@ static const row TABLE[] = {
     FLOAT(
         alchemy_bias, "", 1e-4, 0, 1, SOME_METHODS,
         "beta: how far an occluder must rise over the surface, as a share of the depth"),
-    FLOAT(alchemy_eps, "radius^2", 4e-4, 1e-9, 1, SOME_METHODS,
+    FLOAT(alchemy_eps, "radius^2", 1e-4, 1e-9, 1, SOME_METHODS,
           "eps: keeps the nearest occluders from dividing by zero"),
     CHOICE(normaliser, CRV_NORMALISER_WEIGHTED, NORMALISERS, SOME_METHODS,
            "weighted: by the chords that were sampled; analytic: by the sphere's volume"),

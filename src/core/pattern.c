@@ -47,9 +47,10 @@ static double nearest(const float *points, int32_t count, int32_t stride, int pa
     for (int32_t i = 0; i < count; i++) {
         const double px = (double)points[4 * i * stride],
                      py = (double)points[4 * i * stride + 1];
-        best = fmin(best, (x - px) * (x - px) + (y - py) * (y - py));
-        if (paired)
-            best = fmin(best, (x + px) * (x + px) + (y + py) * (y + py));
+        const double own = (x - px) * (x - px) + (y - py) * (y - py);
+        const double mirrored = (x + px) * (x + px) + (y + py) * (y + py);
+        best = own < best ? own : best; /* fmin() would be a call */
+        best = paired && mirrored < best ? mirrored : best;
     }
     return best;
 }
@@ -90,7 +91,7 @@ static void best_candidates(float *points, int32_t count, int32_t stride, int pa
  */
 static void relax(float *points, int32_t count, int32_t stride, int paired)
 {
-    enum { ROUNDS = 16, GRID = 72 };
+    enum { ROUNDS = 6, GRID = 64 };
     double sums[MOST_CANDIDATES][3];
     for (int round = 0; round < ROUNDS; round++) {
         memset(sums, 0, sizeof sums);
@@ -125,8 +126,9 @@ static void relax(float *points, int32_t count, int32_t stride, int paired)
 }
 
 /* Relaxed points keep a distance from the rim, which would weigh it too little: give the
- * k-th nearest to the centre the radius within which k + 1/2 of n belong. */
-static void equalise_radii(float *points, int32_t count, int32_t stride)
+ * k-th nearest to the centre the radius within which k + 1/2 of n belong. `taken` is the
+ * share of the area in the middle that belongs to none of them. */
+static void equalise_radii(float *points, int32_t count, int32_t stride, double taken)
 {
     double radii[MOST_CANDIDATES];
     for (int32_t i = 0; i < count; i++) {
@@ -138,41 +140,97 @@ static void equalise_radii(float *points, int32_t count, int32_t stride)
         for (int32_t k = 0; k < count; k++)
             rank += radii[k] < radii[i] || (radii[k] == radii[i] && k < i);
         float *point = points + (ptrdiff_t)4 * i * stride;
-        const double r = sqrt((rank + 0.5) / count);
+        const double r = sqrt(taken + (1 - taken) * (rank + 0.5) / count);
         const double angle = atan2((double)point[1], (double)point[0]);
         put(point, r * cos(angle), r * sin(angle));
     }
 }
 
-/* Best candidates cost the cube of their number; sets this large get them from the
- * sequence of crv__pattern_cube(), mapped to the disk, which is as even there. */
+/* The squared distance of (x, y) to the nearest of the points but the one at `skip`. */
+static double nearest_other(const float *points, int32_t count, int32_t stride,
+                            int paired, int32_t skip, double x, double y)
+{
+    const float *rest = points + (ptrdiff_t)4 * (skip + 1) * stride;
+    double best = fmin(nearest(points, skip, stride, paired, x, y),
+                       nearest(rest, count - skip - 1, stride, paired, x, y));
+    return paired ? fmin(best, 4 * (x * x + y * y)) : best;
+}
+
+/* New radii bring some points near each other: turn each about the centre to where its
+ * nearest neighbour is farther away, which never brings the nearest two nearer. */
+static void turn_apart(float *points, int32_t count, int32_t stride, int paired)
+{
+    enum { ROUNDS = 8, TURNS = 8 };
+    for (int round = 0; round < ROUNDS; round++) {
+        /* From about the distance of neighbours down to a part of it. */
+        const double widest = 2.5 / sqrt(count * (paired ? 2.0 : 1.0)) / (1 + round);
+        for (int32_t i = 0; i < count; i++) {
+            float *point = points + (ptrdiff_t)4 * i * stride;
+            const double x = (double)point[0], y = (double)point[1], r = hypot(x, y);
+            double best = nearest_other(points, count, stride, paired, i, x, y);
+            double best_x = x, best_y = y;
+            for (int k = -TURNS; k <= TURNS; k++) {
+                const double turn = fmin(PI, widest / r) * k / TURNS;
+                const double tx = x * cos(turn) - y * sin(turn);
+                const double ty = x * sin(turn) + y * cos(turn);
+                const double distance =
+                    nearest_other(points, count, stride, paired, i, tx, ty);
+                if (distance > best) {
+                    best = distance;
+                    best_x = tx;
+                    best_y = ty;
+                }
+            }
+            put(point, best_x, best_y);
+        }
+    }
+}
+
+/* The i-th point of the same recurrence in the unit square, on the powers of the plastic
+ * number: of all such sequences the one whose points keep the largest distance. */
+static void square_point(int32_t i, int32_t seed, double out[2])
+{
+    const double g = 1.3247179572447460;
+    uint64_t state = (uint64_t)(uint32_t)seed * 0x9e3779b97f4a7c15u + 0x2345678u;
+    for (int k = 0; k < 2; k++) {
+        const double start = seed ? next_random(&state) : 0.5;
+        out[k] = fmod(start + (i + 1) / (k ? g * g : g), 1);
+    }
+}
+
+/* Best candidates cost the cube of their number. Larger sets get a sequence, mapped to
+ * the disk: even, though its points come nearer to each other. */
 static void disk_points(float *points, int32_t count, int32_t stride, int paired,
-                        int32_t seed)
+                        double taken, int32_t seed)
 {
     if (count <= MOST_CANDIDATES) {
         best_candidates(points, count, stride, paired, seed);
         relax(points, count, stride, paired);
-        equalise_radii(points, count, stride);
+        equalise_radii(points, count, stride, taken);
+        turn_apart(points, count, stride, paired);
         return;
     }
     for (int32_t i = 0; i < count; i++) {
-        double cube[3], x, y;
-        cube_point(i, seed, cube);
-        crv__concentric(cube[0], cube[1], &x, &y);
+        double square[2], x, y;
+        square_point(i, seed, square);
+        crv__concentric(square[0], square[1], &x, &y);
         put(points + (ptrdiff_t)4 * i * stride, x, y);
     }
 }
 
 void crv__pattern_disk(float *points, int32_t count, int32_t seed)
 {
-    disk_points(points, count, 1, 0, seed);
+    disk_points(points, count, 1, 0, 0, seed);
 }
 
 void crv__pattern_disk_pairs(float *points, int32_t count, int32_t seed)
 {
-    disk_points(points, count / 2, 2, 1, seed);
-    for (int32_t i = 0; i + 1 < count; i += 2)
-        put(points + 4 * (i + 1), -(double)points[4 * i], -(double)points[4 * i + 1]);
+    disk_points(points, count / 2, 2, 1, count % 2 ? 1.0 / count : 0, seed);
+    for (int32_t i = 0; i + 1 < count; i += 2) {
+        memcpy(points + 4 * (i + 1), points + 4 * i, 4 * sizeof *points);
+        points[4 * (i + 1)] *= -1;
+        points[4 * (i + 1) + 1] *= -1;
+    }
     if (count % 2)
         put(points + 4 * (count - 1), 0, 0);
 }

@@ -34,7 +34,7 @@ static size_t noise_count(const crv_plan *plan)
 static size_t pattern_count(const crv_plan *plan)
 {
     const crv__method *method = crv__method_of(plan->options.method);
-    return method->pattern_count ? (size_t)method->pattern_count(&plan->options) : 0;
+    return method->pattern_fill ? (size_t)plan->options.samples : 0;
 }
 
 static int32_t wrapped(int64_t value, int32_t size)
@@ -87,19 +87,19 @@ static int fill_patterns(crv_plan *plan)
     plan->directions = crv__allocate(allocator, (size_t)count, 2 * sizeof(float));
     plan->noise = crv__allocate(allocator, noise_count(plan), sizeof *plan->noise);
     uint32_t *scratch = crv__allocate(allocator, noise_count(plan), sizeof *scratch);
-    if (method->pattern_count)
+    if (method->pattern_fill)
         plan->pattern = crv__allocate(allocator, pattern_count(plan), 4 * sizeof(float));
     const int done = plan->directions && plan->noise && scratch
-                     && (plan->pattern || !method->pattern_count);
+                     && (plan->pattern || !method->pattern_fill);
     if (done) {
         for (int32_t k = 0; k < count; k++) {
             plan->directions[2 * k] = (float)cos(2 * PI * k / count);
             plan->directions[2 * k + 1] = (float)sin(2 * PI * k / count);
         }
-        if (method->pattern_count)
+        if (method->pattern_fill)
             method->pattern_fill(&plan->options, plan->pattern);
         crv__noise_fill(plan->noise, plan->options.noise_size,
-                        method->pattern_count ? 2 * PI : 2 * PI / count,
+                        method->pattern_fill ? 2 * PI : 2 * PI / count,
                         plan->options.seed, scratch);
     }
     crv__release(allocator, scratch, noise_count(plan), sizeof *scratch);
@@ -141,6 +141,12 @@ crv_status crv_plan_create(crv_context *context, const crv_options *options,
         status = crv__gbuffer_desc_check(logger, desc);
     if (status)
         return status;
+    if (crv__method_of(options->method)->volumetric && desc->layers > 1
+        && desc->layer_kind == CRV_LAYERS_SURFACES)
+        crv__log(logger, CRV_LOG_WARNING,
+                 "layers: %s uses further layers only as pairs of front and back "
+                 "(CRV_LAYERS_SOLID); it sees the first",
+                 options->method->name);
     crv_plan *plan = crv__allocate(&context->allocator, 1, sizeof *plan);
     if (plan) {
         plan->context = context;

@@ -11,11 +11,11 @@ typedef struct crv__method {
     /* The specification: raw accessibility of the pixel (x, y) of the buffers, which is
      * not background; may leave [0, 1] by its sampling error. */
     float (*accessibility)(const crv__frame *frame, int32_t x, int32_t y);
-    int32_t reads_field; /* 0 or 1: takes height fields and implicit surfaces */
-    /* The method's sample pattern: how many points of four floats, and what they are.
-     * Methods with a pattern are turned by the noise through the full circle, the others
-     * through one direction's sector. NULL: none. */
-    int32_t (*pattern_count)(const crv_options *options);
+    int32_t volumetric; /* 0 or 1: needs to know what is inside, so that further layers
+                           help only as pairs of front and back */
+    /* The method's sample pattern: fills options->samples points of four floats. Methods
+     * with a pattern are turned by the noise through the full circle, the others through
+     * one direction's sector. NULL: none. */
     void (*pattern_fill)(const crv_options *options, float *points);
     /* What crv_options_preset() sets, as "key=value key=value", in the order of
      * crv_preset. */

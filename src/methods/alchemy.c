@@ -9,9 +9,10 @@
  * over s samples of a disk of the radius around P, parallel to the image. sigma and k are
  * the options intensity and contrast, applied where every method applies them.
  *
- * sigma is a length in the paper (1 m with a radius of 0.5 m), eps an area (1e-4 m^2):
- * here both are given in radii, so that a scene in other units looks the same: sigma = 2,
- * eps = 4e-4.
+ * sigma is a length and eps an area, given in the paper in metres (1 m, 1e-4 m^2) with a
+ * radius of 0.5 m. Here both are given in radii, so that a scene in other units looks the
+ * same: sigma = R * intensity, eps = alchemy_eps * R^2. The paper's picture is intensity
+ * 2, eps 4e-4, which is what the preset `paper` sets.
  */
 #include "core/pattern.h"
 #include "core/registry.h"
@@ -41,10 +42,9 @@ static float accessibility(const crv__frame *f, int32_t x, int32_t y)
     for (int32_t i = 0; i < count; i++) {
         const float *point =
             f->pattern + 4 * i; /* unit disk; prefixes are well spread too */
-        const float disk_x = point[0] * noise->cos_alpha - point[1] * noise->sin_alpha;
-        const float disk_y = point[0] * noise->sin_alpha + point[1] * noise->cos_alpha;
-        const float sx = (float)x + 0.5f + disk_x * radius_x;
-        const float sy = (float)y + 0.5f - disk_y * radius_y;
+        const crv__vec2 disk = crv__turned(noise, point[0], point[1]);
+        const float sx = (float)x + 0.5f + disk.x * radius_x;
+        const float sy = (float)y + 0.5f - disk.y * radius_y;
         if (!(sx >= 0 && sx < (float)p->width && sy >= 0 && sy < (float)p->height))
             continue;
         for (int32_t layer = 0; layer < p->layers; layer++) {
@@ -60,12 +60,7 @@ static float accessibility(const crv__frame *f, int32_t x, int32_t y)
             break;
         }
     }
-    return 1 - 2 * 2 * p->radius * sum / (float)count;
-}
-
-static int32_t pattern_count(const crv_options *options)
-{
-    return options->samples;
+    return 1 - 2 * p->radius * sum / (float)count;
 }
 
 static void pattern_fill(const crv_options *options, float *points)
@@ -86,7 +81,6 @@ const crv__method crv__method_alchemy = {
          .weighting = CRV_WEIGHTING_COSINE,
          .options = OPTIONS},
     .accessibility = accessibility,
-    .pattern_count = pattern_count,
     .pattern_fill = pattern_fill,
     .presets = {"samples=6", "samples=12", "samples=32", "samples=128",
-                "samples=12 bands=3 filter=bilateral13"}};
+                "samples=12 bands=3 intensity=2 alchemy_eps=4e-4 filter=bilateral13"}};

@@ -30,11 +30,11 @@ static float accessibility(const crv__frame *f, int32_t x, int32_t y)
     for (int32_t i = 0; i < p->samples; i++) {
         const float *point =
             f->pattern + 4 * i; /* r_i * direction in radii, and its weight */
-        const float t = point[0] * noise->cos_alpha - point[1] * noise->sin_alpha;
-        const float b = point[0] * noise->sin_alpha + point[1] * noise->cos_alpha;
-        const crv__vec3 offset = {t * tangent.x + b * bitangent.x + point[2] * site.n.x,
-                                  t * tangent.y + b * bitangent.y + point[2] * site.n.y,
-                                  t * tangent.z + b * bitangent.z + point[2] * site.n.z};
+        const crv__vec2 turned = crv__turned(noise, point[0], point[1]);
+        const crv__vec3 offset = {
+            turned.x * tangent.x + turned.y * bitangent.x + point[2] * site.n.x,
+            turned.x * tangent.y + turned.y * bitangent.y + point[2] * site.n.y,
+            turned.x * tangent.z + turned.y * bitangent.z + point[2] * site.n.z};
         if (crv__outside(f, &site, crv__add_scaled(site.lifted, offset, p->radius)))
             sum += point[3];
     }
@@ -59,11 +59,6 @@ static double inverse_membership(const crv_options *o, double xi)
         return fmin(1, (double)o->u / (1 - xi));
     }
     return 1;
-}
-
-static int32_t pattern_count(const crv_options *options)
-{
-    return options->samples;
 }
 
 static void pattern_fill(const crv_options *options, float *points)
@@ -99,9 +94,8 @@ const crv__method crv__method_containment = {
              "Occlusion for Real-Time Rendering and Games",
          .weighting = CRV_WEIGHTING_COSINE,
          .options = OPTIONS},
-    .reads_field = 1,
+    .volumetric = 1,
     .accessibility = accessibility,
-    .pattern_count = pattern_count,
     .pattern_fill = pattern_fill,
     .presets = {"samples=12", "samples=32", "samples=96", "samples=512",
                 "samples=8 falloff=none filter=box4"}};

@@ -73,9 +73,8 @@ static float accessibility(const crv__frame *f, int32_t x, int32_t y)
 
     float occlusion = 0;
     for (int32_t k = 0; k < p->directions; k++) {
-        const float c = f->directions[2 * k], s = f->directions[2 * k + 1];
-        const float step_x = (c * noise->cos_alpha - s * noise->sin_alpha) * radius_x;
-        const float step_y = -(s * noise->cos_alpha + c * noise->sin_alpha) * radius_y;
+        const crv__vec2 direction = crv__direction(f, noise, k);
+        const float step_x = direction.x * radius_x, step_y = -direction.y * radius_y;
         slice walk = {0, 0, 0};
         for (int32_t i = 0; i < p->steps; i++) {
             float t = ((float)i + 0.5f + 0.5f * noise->beta) / (float)p->steps;

@@ -68,10 +68,7 @@ static float normal_occlusion(const crv__frame *f, crv__vec3 origin, crv__vec3 n
     for (int32_t k = 0; k < p->normal_rays; k++) {
         const float z2 =
             height * height + rest * ((float)k + stratum) / (float)p->normal_rays;
-        const float z = sqrtf(z2), xy = sqrtf(fmaxf(0, 1 - z2));
-        const crv__vec3 direction = {z * n.x + xy * t.x, z * n.y + xy * t.y,
-                                     z * n.z + xy * t.z};
-        blocked += crv__march(f, origin, direction, beta);
+        blocked += crv__march(f, origin, crv__raised(n, t, z2), beta);
     }
     return p->normal_rays ? rest * blocked / (float)p->normal_rays : 0;
 }
@@ -88,12 +85,7 @@ static float accessibility(const crv__frame *f, int32_t x, int32_t y)
 
     float occlusion = 0;
     for (int32_t i = 0; i < p->directions; i++) {
-        const float c = f->directions[2 * i], s = f->directions[2 * i + 1];
-        const float along_t = c * noise->cos_alpha - s * noise->sin_alpha;
-        const float along_b = s * noise->cos_alpha + c * noise->sin_alpha;
-        const crv__vec3 t = {along_t * tangent.x + along_b * bitangent.x,
-                             along_t * tangent.y + along_b * bitangent.y,
-                             along_t * tangent.z + along_b * bitangent.z};
+        const crv__vec3 t = crv__slice_tangent(f, noise, i, tangent, bitangent);
         const horizon h = trace_horizon(f, origin, n, t, noise->beta);
         occlusion += h.occlusion
                      + normal_occlusion(f, origin, n, t, h.height, crv__stratum(noise, i),

@@ -26,6 +26,23 @@ static inline void crv__tangents(crv__vec3 n, crv__vec3 *t, crv__vec3 *b)
     *b = (crv__vec3){xy, 1 - n.y * n.y * scale, -n.y};
 }
 
+/* The k-th of the Nd unit vectors equally spaced around n, in the plane of n. */
+static inline crv__vec3 crv__slice_tangent(const crv__frame *f,
+                                           const crv__noise_texel *noise, int32_t k,
+                                           crv__vec3 t, crv__vec3 b)
+{
+    const crv__vec2 d = crv__direction(f, noise, k);
+    return (crv__vec3){d.x * t.x + d.y * b.x, d.x * t.y + d.y * b.y,
+                       d.x * t.z + d.y * b.z};
+}
+
+/* The unit vector over the tangent t whose cosine with n squares to z2. */
+static inline crv__vec3 crv__raised(crv__vec3 n, crv__vec3 t, float z2)
+{
+    const float z = sqrtf(z2), xy = sqrtf(fmaxf(0, 1 - z2));
+    return (crv__vec3){z * n.x + xy * t.x, z * n.y + xy * t.y, z * n.z + xy * t.z};
+}
+
 /*
  * P raised along n by one pixel's footprint at its depth: point-sampled depth of a
  * slanted surface is a staircase, and this is the height of its steps (2008a, eq. 13).

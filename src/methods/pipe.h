@@ -29,13 +29,12 @@ static inline int crv__pipe_through(const crv__params *p, int32_t x, int32_t y,
                                     const float *point, const crv__noise_texel *noise,
                                     crv__pipe *pipe)
 {
-    const float disk_x = point[0] * noise->cos_alpha - point[1] * noise->sin_alpha;
-    const float disk_y = point[0] * noise->sin_alpha + point[1] * noise->cos_alpha;
+    const crv__vec2 disk = crv__turned(noise, point[0], point[1]);
     const float d = -P.z, unit = p->orthographic ? 1 : d - offset.z;
     if (!(unit > 0))
         return 0;
-    const float sx = p->cx + p->fx * (P.x + offset.x + disk_x * radius) / unit;
-    const float sy = p->cy - p->fy * (P.y + offset.y + disk_y * radius) / unit;
+    const float sx = p->cx + p->fx * (P.x + offset.x + disk.x * radius) / unit;
+    const float sy = p->cy - p->fy * (P.y + offset.y + disk.y * radius) / unit;
     /* Pixels this far out are background anyway, and no longer fit an integer. */
     if (!(fabsf(sx) < 1e9f && fabsf(sy) < 1e9f))
         return 0;

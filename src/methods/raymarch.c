@@ -23,17 +23,10 @@ static float accessibility(const crv__frame *f, int32_t x, int32_t y)
     const int32_t rays = p->normal_rays > 0 ? p->normal_rays : 1;
     float occlusion = 0;
     for (int32_t i = 0; i < p->directions; i++) {
-        const float c = f->directions[2 * i], s = f->directions[2 * i + 1];
-        const float along_t = c * noise->cos_alpha - s * noise->sin_alpha;
-        const float along_b = s * noise->cos_alpha + c * noise->sin_alpha;
+        const crv__vec3 t = crv__slice_tangent(f, noise, i, tangent, bitangent);
         for (int32_t k = 0; k < rays; k++) {
             const float stratum = ((float)k + crv__stratum(noise, i)) / (float)rays;
-            const float z = sqrtf(stratum), xy = sqrtf(1 - stratum);
-            const crv__vec3 direction = {
-                z * n.x + xy * (along_t * tangent.x + along_b * bitangent.x),
-                z * n.y + xy * (along_t * tangent.y + along_b * bitangent.y),
-                z * n.z + xy * (along_t * tangent.z + along_b * bitangent.z)};
-            occlusion += crv__march(f, origin, direction, noise->beta);
+            occlusion += crv__march(f, origin, crv__raised(n, t, stratum), noise->beta);
         }
     }
     return 1 - occlusion / (float)(p->directions * rays);

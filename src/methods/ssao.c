@@ -22,18 +22,12 @@ static float accessibility(const crv__frame *f, int32_t x, int32_t y)
     int32_t outside = 0;
     for (int32_t i = 0; i < p->samples; i++) {
         const float *point = f->pattern + 4 * i;
-        const crv__vec3 offset = {
-            point[0] * noise->cos_alpha - point[1] * noise->sin_alpha,
-            point[0] * noise->sin_alpha + point[1] * noise->cos_alpha, point[2]};
+        const crv__vec2 turned = crv__turned(noise, point[0], point[1]);
+        const crv__vec3 offset = {turned.x, turned.y, point[2]};
         outside += crv__outside_depth(f, crv__add_scaled(P, offset, p->radius));
     }
     const float share = (float)outside / (float)p->samples;
     return p->rescale ? fminf(1, 2 * share) : share;
-}
-
-static int32_t pattern_count(const crv_options *options)
-{
-    return options->samples;
 }
 
 /* Uniform in the ball, -p after each p: a plane through P has exactly half of them behind
@@ -62,8 +56,8 @@ const crv__method crv__method_ssao = {
              .paper = "Mittring 2007: Finding Next Gen: CryEngine 2",
              .weighting = CRV_WEIGHTING_UNIFORM,
              .options = OPTIONS},
+    .volumetric = 1,
     .accessibility = accessibility,
-    .pattern_count = pattern_count,
     .pattern_fill = pattern_fill,
     .presets = {"samples=8", "samples=16", "samples=32", "samples=128",
                 "samples=8 filter=box4"}};

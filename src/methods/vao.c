@@ -39,11 +39,6 @@ static float accessibility(const crv__frame *f, int32_t x, int32_t y)
     return chords > 0 ? open / chords : 1;
 }
 
-static int32_t pattern_count(const crv_options *options)
-{
-    return options->samples;
-}
-
 static void pattern_fill(const crv_options *options, float *points)
 {
     crv__pattern_disk(points, options->samples, options->seed);
@@ -60,9 +55,8 @@ const crv__method crv__method_vao = {
              "Occlusion for Real-Time Rendering and Games",
          .weighting = CRV_WEIGHTING_COSINE,
          .options = OPTIONS},
-    .reads_field = 1,
+    .volumetric = 1,
     .accessibility = accessibility,
-    .pattern_count = pattern_count,
     .pattern_fill = pattern_fill,
     .presets = {"samples=6", "samples=12", "samples=32", "samples=128",
                 "samples=8 filter=box4"}};

@@ -56,10 +56,9 @@ static float accessibility(const crv__frame *f, int32_t x, int32_t y)
     float open = 0, total = 0;
     for (int32_t i = 0; i < p->samples; i++) {
         const float *point = f->pattern + 4 * i;
-        const float disk_x = point[0] * noise->cos_alpha - point[1] * noise->sin_alpha;
-        const float disk_y = point[0] * noise->sin_alpha + point[1] * noise->cos_alpha;
-        const int32_t u = x + (int32_t)lrintf(disk_x * radius_x);
-        const int32_t v = y - (int32_t)lrintf(disk_y * radius_y);
+        const crv__vec2 disk = crv__turned(noise, point[0], point[1]);
+        const int32_t u = x + (int32_t)lrintf(disk.x * radius_x);
+        const int32_t v = y - (int32_t)lrintf(disk.y * radius_y);
         /* The chord of the line through the texel's centre. */
         const float offset_x = (float)(u - x) / radius_x,
                     offset_y = (float)(v - y) / radius_y;
@@ -71,11 +70,6 @@ static float accessibility(const crv__frame *f, int32_t x, int32_t y)
         total += 2 * half;
     }
     return total > 0 ? fminf(1, 2 * open / total) : 1;
-}
-
-static int32_t pattern_count(const crv_options *options)
-{
-    return options->samples;
 }
 
 static void pattern_fill(const crv_options *options, float *points)
@@ -91,8 +85,8 @@ const crv__method crv__method_vo = {
              .paper = "Loos, Sloan 2010: Volumetric Obscurance",
              .weighting = CRV_WEIGHTING_UNIFORM,
              .options = OPTIONS},
+    .volumetric = 1,
     .accessibility = accessibility,
-    .pattern_count = pattern_count,
     .pattern_fill = pattern_fill,
     .presets = {"samples=6", "samples=12", "samples=32", "samples=128",
                 "samples=12 filter=bilateral13"}};

@@ -37,8 +37,8 @@ enum { FLAGS_MAX = 128 };
 
 bool args_is_library_option(const char *key)
 {
-    return strcmp(key, "method") == 0 || strcmp(key, "filter") == 0
-           || crv_option_find(key) != NULL;
+    return strcmp(key, "method") == 0 || strcmp(key, "preset") == 0
+           || strcmp(key, "filter") == 0 || crv_option_find(key) != NULL;
 }
 
 /* The row of this flag ("--size" or "-o"), its first `length` bytes counting. */
@@ -72,9 +72,9 @@ static const arg *find_positional(const command *c, size_t index)
 /* Names are compared without their dashes, so that these don't count as letters met. */
 static int unknown_flag(const command *c, const char *flag, report *r)
 {
-    const char *names[FLAGS_MAX] = {"method", "filter"};
+    const char *names[FLAGS_MAX] = {"method", "preset", "filter"};
     char keys[FLAGS_MAX][64];
-    int32_t count = c->library_options ? 2 : 0;
+    int32_t count = c->library_options ? 3 : 0;
     const char *nearest;
 
     for (size_t t = 0; c->tables[t] != NULL; t++)
@@ -131,17 +131,50 @@ static void set_defaults(const command *c, void *settings)
                                settings);
 }
 
-/* A method brings its own defaults, so it comes before all other options. */
-static int set_method(int argc, char **argv, common_settings *common, report *r)
+/* The value of the last `flag` among the arguments; NULL where there is none. */
+static const char *last_value(const char *flag, int argc, char **argv)
 {
-    const char *name = NULL;
+    size_t length = strlen(flag);
+    const char *value = NULL;
 
     for (int i = 0; i < argc && strcmp(argv[i], "--") != 0; i++) {
-        if (strncmp(argv[i], "--method=", 9) == 0)
-            name = argv[i] + 9;
-        else if (strcmp(argv[i], "--method") == 0 && i + 1 < argc)
-            name = argv[i + 1];
+        if (strncmp(argv[i], flag, length) != 0)
+            continue;
+        if (argv[i][length] == '=')
+            value = argv[i] + length + 1;
+        else if (argv[i][length] == '\0' && i + 1 < argc)
+            value = argv[i + 1];
     }
+    return value;
+}
+
+static const char *method_name(const command *c, int argc, char **argv)
+{
+    const char *name = last_value("--method", argc, argv);
+
+    if (name == NULL && c->method_flag != NULL
+        && last_value(c->method_flag, argc, argv) != NULL)
+        name = c->method_of_flag;
+    return name;
+}
+
+const crv_method *args_method(const command *c, int argc, char **argv)
+{
+    const char *name = method_name(c, argc, argv);
+    const crv_method *method = name != NULL ? crv_method_find(name) : NULL;
+    crv_options options;
+
+    if (method == NULL && crv_options_init(&options, sizeof options, NULL) == CRV_OK)
+        method = options.method;
+    return method;
+}
+
+/* A method brings its own defaults, so it comes before all other options. */
+static int set_method(const command *c, int argc, char **argv, common_settings *common,
+                      report *r)
+{
+    const char *name = method_name(c, argc, argv);
+
     if (!report_ok(r, crv_options_init(&common->options, sizeof common->options, NULL),
                    "options"))
         return EXIT_USAGE;
@@ -155,6 +188,31 @@ static int set_method(int argc, char **argv, common_settings *common, report *r)
     return EXIT_USAGE;
 }
 
+/* A preset is the method's, so it comes after that; single options change it. */
+static int set_preset(int argc, char **argv, common_settings *common, report *r)
+{
+    const char *name = last_value("--preset", argc, argv);
+    const char *names[CRV_PRESET_COUNT];
+    const char *nearest;
+
+    for (int i = 0; name != NULL && i < CRV_PRESET_COUNT; i++) {
+        names[i] = crv_preset_name((crv_preset)i);
+        if (strcmp(names[i], name) == 0)
+            return report_ok(r, crv_options_preset(&common->options, (crv_preset)i),
+                             "preset")
+                       ? EXIT_DONE
+                       : EXIT_USAGE;
+    }
+    if (name == NULL)
+        return EXIT_DONE;
+    nearest = crv_nearest_name(name, names, CRV_PRESET_COUNT);
+    if (nearest != NULL)
+        report_error(r, "--preset: no preset \"%s\"; did you mean %s?", name, nearest);
+    else
+        report_error(r, "--preset: no preset \"%s\"; see `crevice methods`", name);
+    return EXIT_USAGE;
+}
+
 static int set_library_option(const char *flag, size_t length, const char *text,
                               common_settings *common, report *r)
 {
@@ -163,8 +221,8 @@ static int set_library_option(const char *flag, size_t length, const char *text,
 
     memcpy(key, flag + 2, length - 2);
     key[length - 2] = '\0';
-    if (strcmp(key, "method") == 0)
-        return EXIT_DONE; /* set_method() has seen to it */
+    if (strcmp(key, "method") == 0 || strcmp(key, "preset") == 0)
+        return EXIT_DONE; /* set_method() and set_preset() have seen to it */
     option = crv_option_find(key);
     if (strcmp(key, "radius") == 0)
         common->radius_given = true;
@@ -266,7 +324,9 @@ int args_parse(const command *c, int argc, char **argv, void *settings, report *
 
     set_defaults(c, settings);
     if (c->library_options)
-        result = set_method(argc, argv, common, r);
+        result = set_method(c, argc, argv, common, r);
+    if (c->library_options && result == EXIT_DONE)
+        result = set_preset(argc, argv, common, r);
     for (int i = 0; i < argc && result == EXIT_DONE; i++) {
         if (!options_end && strcmp(argv[i], "--") == 0)
             options_end = true;

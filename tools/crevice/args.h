@@ -85,7 +85,10 @@ typedef struct command {
     const char *synopsis;           /* what follows the name, without options */
     const char *details;            /* a paragraph of help, or NULL */
     const arg_table *const *tables; /* NULL-terminated */
-    bool library_options;           /* takes --method, --filter and the option table */
+    /* Takes --method, --preset, --filter and the option table. */
+    bool library_options;
+    /* With this flag and without --method, that method is the default. NULL: none. */
+    const char *method_flag, *method_of_flag;
     const char *const *examples; /* NULL-terminated: comment, line, comment, line ... */
     size_t settings_size;
     int (*run)(const void *settings, report *r); /* returns an exit code */
@@ -94,6 +97,10 @@ typedef struct command {
 /* Fills zeroed settings from argv (what follows the command's name). Returns EXIT_DONE
  * or, after an error line, EXIT_USAGE. */
 int args_parse(const command *c, int argc, char **argv, void *settings, report *r);
+
+/* The method that these arguments choose, the default one where they name none that
+ * there is. For help; args_parse() finds it by itself. */
+const crv_method *args_method(const command *c, int argc, char **argv);
 
 /* Reads one value into the row's member; false where it is not valid. */
 bool args_set_value(const arg *row, const char *text, void *settings);

@@ -15,7 +15,7 @@ typedef struct ao_settings {
     common_settings common;
     const char *input, *output, *frames;
     const char *depth, *normal;
-    arg_int depth_encoding, normal_space;
+    arg_int depth_encoding, normal_space, layer_kind;
     arg_number vfov_deg, ortho, z_near, z_far, background;
     arg_int bits;
     bool half;
@@ -26,6 +26,9 @@ static const char *const encodings[] = {"planar",   "radial",    "hardware",
                                         "reversed", "disparity", NULL};
 /* In the order of io_normal_space. */
 static const char *const spaces[] = {"find", "view", "world", NULL};
+
+/* In the order of crv_layers. */
+static const char *const layer_kinds[] = {"surfaces", "solid", NULL};
 
 static const arg file_rows[] = {
     {.name = "IN",
@@ -90,6 +93,14 @@ static const arg pass_rows[] = {
      .offset = offsetof(ao_settings, depth_encoding),
      .help = "planar: distance along the viewing axis; radial: from the eye; hardware: "
              "depth buffer, 0 at near; reversed: 1 at near; disparity: 1/planar"},
+    {.name = "--layer-kind",
+     .value = "KIND",
+     .type = ARG_CHOICE,
+     .choices = layer_kinds,
+     .computed = "surfaces, solid where they are solid2.Z ...",
+     .offset = offsetof(ao_settings, layer_kind),
+     .help = "what the layers Z, layer2.Z ... are: surfaces that each may occlude, or in "
+             "turn the front and the back of solids"},
     {.name = "--near",
      .value = "D",
      .type = ARG_NUMBER,
@@ -294,14 +305,23 @@ static int write_result(const shot *t, const char *path, const io_frame *frame,
     return output_write(path, ao, &options, r);
 }
 
+static int load(const shot *t, const char *path, io_frame *frame, report *r)
+{
+    if (io_frame_load(path, &t->request, frame, &r->logger) != 0)
+        return EXIT_FAILED;
+    if (t->settings->layer_kind.given)
+        frame->desc.layer_kind = (crv_layers)t->settings->layer_kind.value;
+    return EXIT_DONE;
+}
+
 static int process(shot *t, const char *input, const char *output, report *r)
 {
     io_frame frame = {0};
     io_image ao = {0};
     int result = output_check(output, input, r);
 
-    if (result == EXIT_DONE && io_frame_load(input, &t->request, &frame, &r->logger) != 0)
-        result = EXIT_FAILED;
+    if (result == EXIT_DONE)
+        result = load(t, input, &frame, r);
     if (result == EXIT_DONE)
         result = upload(&t->estimator, &frame, r);
     if (result == EXIT_DONE && !t->has_radius)

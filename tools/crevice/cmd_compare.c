@@ -1,18 +1,23 @@
 /* SPDX-License-Identifier: MIT */
-#include <cjson/cJSON.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "commands.h"
+#include "flip.h"
+#include "heatmap_file.h"
 #include "io.h"
 #include "metrics.h"
+#include "metrics_print.h"
 
 typedef struct compare_settings {
     common_settings common;
     const char *a, *b;
     const char *channel, *channel_b;
+    arg_number ppd;
+    const char *heat_map;
+    arg_number heat_scale;
     bool json;
 } compare_settings;
 
@@ -39,6 +44,30 @@ static const arg compare_rows[] = {
      .offset = offsetof(compare_settings, channel_b),
      .computed = "as for A",
      .help = "the channel of B, where its name differs"},
+    {.name = "--ppd",
+     .value = "X",
+     .type = ARG_NUMBER,
+     .min = FLIP_PPD_MIN,
+     .max = FLIP_PPD_MAX,
+     .unit = "pixels per degree",
+     .offset = offsetof(compare_settings, ppd),
+     .initial = FLIP_PPD_TEXT,
+     .help = "from where FLIP looks at the pictures; the default is 0.7 m before a "
+             "screen 0.7 m wide of 3840 pixels"},
+    {.name = "--heat-map",
+     .value = "FILE",
+     .type = ARG_TEXT,
+     .offset = offsetof(compare_settings, heat_map),
+     .help = "write a picture (.png or .exr) of the signed error: orange where A is "
+             "above B, blue where below, white where equal, grey background"},
+    {.name = "--heat-scale",
+     .value = "X",
+     .type = ARG_NUMBER,
+     .min = 1e-4,
+     .max = 1e3,
+     .offset = offsetof(compare_settings, heat_scale),
+     .initial = "0.25",
+     .help = "the error that gets the darkest colours of the heat map"},
     {.name = "--json",
      .type = ARG_FLAG,
      .offset = offsetof(compare_settings, json),
@@ -53,6 +82,8 @@ static const char *const examples[] = {
     "crevice compare ao.exr blender.exr",
     "for a script",
     "crevice compare --json a.png b.png | jq .rmse",
+    "where it is too bright (orange) and too dark (blue) by up to 0.1",
+    "crevice compare ao.exr reference.exr --heat-map error.png --heat-scale 0.1",
     NULL,
 };
 
@@ -149,59 +180,6 @@ static uint8_t *make_mask(const picture *a, const picture *b, report *r)
     return mask;
 }
 
-static void add_number(cJSON *object, const char *key, double value)
-{
-    if (isfinite(value))
-        cJSON_AddNumberToObject(object, key, value);
-    else
-        cJSON_AddNullToObject(object, key);
-}
-
-static int print_json(const compare_settings *s, const picture *a, const metrics *m,
-                      report *r)
-{
-    cJSON *root = cJSON_CreateObject();
-    char *text;
-
-    cJSON_AddStringToObject(root, "a", s->a);
-    cJSON_AddStringToObject(root, "b", s->b);
-    add_number(root, "width", a->image.width);
-    add_number(root, "height", a->image.height);
-    add_number(root, "pixels", (double)m->pixels);
-    add_number(root, "mean_a", m->mean_a);
-    add_number(root, "mean_b", m->mean_b);
-    add_number(root, "rmse", m->rmse);
-    add_number(root, "mae", m->mae);
-    add_number(root, "psnr_db", m->psnr_db);
-    add_number(root, "ssim", m->ssim);
-    add_number(root, "ssim_windows", (double)m->ssim_windows);
-    add_number(root, "max_error", m->max_error);
-    add_number(root, "max_x", m->max_x);
-    add_number(root, "max_y", m->max_y);
-    text = cJSON_Print(root);
-    cJSON_Delete(root);
-    if (text == NULL)
-        return report_no_memory(r);
-    puts(text);
-    cJSON_free(text);
-    return EXIT_DONE;
-}
-
-static void print_text(const picture *a, const metrics *m)
-{
-    printf("pixels   %lld of %lld\n", (long long)m->pixels,
-           (long long)a->image.width * a->image.height);
-    printf("mean     %.6f and %.6f\n", m->mean_a, m->mean_b);
-    printf("RMSE     %.6f\n", m->rmse);
-    printf("MAE      %.6f\n", m->mae);
-    printf("PSNR     %.2f dB\n", m->psnr_db);
-    if (m->ssim_windows > 0)
-        printf("SSIM     %.6f\n", m->ssim);
-    else
-        printf("SSIM     none: no 11x11 window without background\n");
-    printf("largest  %.6f at (%d, %d)\n", m->max_error, m->max_x, m->max_y);
-}
-
 static bool finite_values(const char *path, const picture *p, const uint8_t *mask,
                           report *r)
 {
@@ -214,11 +192,41 @@ static bool finite_values(const char *path, const picture *p, const uint8_t *mas
     return bad == 0;
 }
 
+static int measure(const compare_settings *s, const picture *a, const picture *b,
+                   const uint8_t *mask, metrics_findings *f, report *r)
+{
+    int32_t width = a->image.width, height = a->image.height;
+
+    if (!finite_values(s->a, a, mask, r) || !finite_values(s->b, b, mask, r))
+        return EXIT_FAILED;
+    if (!metrics_compare(a->values, b->values, mask, width, height, &f->m))
+        return report_no_memory(r);
+    if (f->m.pixels == 0) {
+        report_error(r,
+                     "%s: no pixel to compare, all is background; check the Z and N "
+                     "channels of both files",
+                     s->a);
+        return EXIT_FAILED;
+    }
+    if (!flip_compare(a->values, b->values, mask, width, height, s->ppd.value, &f->flip)
+        || !metrics_fit_curves(a->values, b->values, mask, width, height, &f->fit))
+        return report_no_memory(r);
+    return EXIT_DONE;
+}
+
 static int compare(const compare_settings *s, const picture *a, const picture *b,
                    report *r)
 {
-    metrics m;
-    int result = EXIT_FAILED;
+    heatmap_source source = {a->values,      b->values,       NULL,
+                             a->image.width, a->image.height, s->heat_scale.value};
+    metrics_findings f = {.a = s->a,
+                          .b = s->b,
+                          .width = a->image.width,
+                          .height = a->image.height,
+                          .flip_ppd = s->ppd.value,
+                          .heat_map = s->heat_map,
+                          .heat_scale = s->heat_scale.value};
+    int result;
     uint8_t *mask;
 
     if (a->image.width != b->image.width || a->image.height != b->image.height) {
@@ -230,32 +238,36 @@ static int compare(const compare_settings *s, const picture *a, const picture *b
     mask = make_mask(a, b, r);
     if (mask == NULL)
         return EXIT_FAILED;
-    if (finite_values(s->a, a, mask, r) && finite_values(s->b, b, mask, r)) {
-        if (!metrics_compare(a->values, b->values, mask, a->image.width, a->image.height,
-                             &m))
-            report_no_memory(r);
-        else if (m.pixels == 0)
-            report_error(r,
-                         "%s: no pixel to compare, all is background; check the Z "
-                         "and N channels of both files",
-                         s->a);
-        else
-            result = EXIT_DONE;
-    }
+    result = measure(s, a, b, mask, &f, r);
+    source.mask = mask;
+    if (result == EXIT_DONE && s->heat_map != NULL)
+        result = heatmap_write(s->heat_map, &source, r);
     free(mask);
     if (result == EXIT_DONE && s->json)
-        return print_json(s, a, &m, r);
+        return metrics_print_json(&f, r);
     if (result == EXIT_DONE)
-        print_text(a, &m);
+        metrics_print_text(&f);
     return result;
+}
+
+static int check_heat_map(const compare_settings *s, report *r)
+{
+    if (s->heat_map != NULL)
+        return heatmap_check(s->heat_map, s->a, s->b, r);
+    if (!s->heat_scale.given)
+        return EXIT_DONE;
+    report_error(r, "--heat-scale: there is no heat map; add --heat-map FILE");
+    return EXIT_USAGE;
 }
 
 static int run(const void *settings, report *r)
 {
     const compare_settings *s = settings;
     picture a = {0}, b = {0};
-    int result = load(s->a, s->channel, &a, r);
+    int result = check_heat_map(s, r);
 
+    if (result == EXIT_DONE)
+        result = load(s->a, s->channel, &a, r);
     if (result == EXIT_DONE)
         result = load(s->b, s->channel_b != NULL ? s->channel_b : s->channel, &b, r);
     if (result == EXIT_DONE)
@@ -267,13 +279,21 @@ static int run(const void *settings, report *r)
 
 const command command_compare = {
     .name = "compare",
-    .summary = "the difference of two pictures: RMSE, MAE, PSNR, SSIM, largest error",
-    .synopsis = "A B [--channel NAME] [--json]",
+    .summary = "the difference of two pictures: RMSE, MAE, PSNR, SSIM, FLIP, signed "
+               "error, best fits, heat map",
+    .synopsis = "A B [--channel NAME] [--heat-map FILE] [--json]",
     .details =
         "Pixels that are background in either file are left out: where a channel Z "
         "is not finite, not positive or at least 1e10, and where the normals N.X, "
         "N.Y, N.Z are not of unit length (1 % off). SSIM is the mean over 11x11 "
-        "windows without such pixels.",
+        "windows without such pixels. FLIP (Andersson et al. 2020) is the mean of the "
+        "difference seen when the pictures alternate on a screen, their values shown as "
+        "sRGB grey and the background white. Signed errors are A - B: bias is their "
+        "mean, 1 and 99 percent of them are below the two ends given. Fitted is A as "
+        "max(0, 1 - intensity (1 - A))^power with the intensity in 0 to 100 and the "
+        "power "
+        "in 0.01 to 100 that bring it nearest to B: what differs in strength only can be "
+        "mended with --intensity and --contrast.",
     .tables = tables,
     .examples = examples,
     .settings_size = sizeof(compare_settings),

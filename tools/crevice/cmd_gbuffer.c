@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "commands.h"
+#include "gbuffer_image.h"
 #include "output.h"
 #include "view.h"
 
@@ -44,58 +45,13 @@ static int check(const view_settings *s, report *r)
     return output_check(s->output, s->model, r);
 }
 
-/* Row-vector matrices: p' = p * M, so M is the transpose of the matrix for column
- * vectors. */
-static void describe_camera(const scene_gbuffer *g, io_image *image)
-{
-    io_camera_metadata *out = &image->camera;
-    const float *rotation = g->camera.world_to_view;
-    double fx = (double)g->camera.fx_px / image->display_width;
-    double fy = (double)g->camera.fy_px / image->display_height;
-    double cx = ((double)g->camera.cx_px - g->desc.guard_left) / image->display_width;
-    double cy = ((double)g->camera.cy_px - g->desc.guard_top) / image->display_height;
-    bool ortho = g->camera.projection == CRV_ORTHOGRAPHIC;
-
-    for (int row = 0; row < 4; row++) {
-        double view[4] = {0.0, 0.0, 0.0, row == 3 ? 1.0 : 0.0};
-
-        for (int k = 0; k < 3; k++) {
-            if (row < 3)
-                view[k] = (double)rotation[3 * k + row];
-            for (int i = 0; i < 3 && row == 3; i++)
-                view[k] -= (double)rotation[3 * k + i] * (double)g->view.eye[i];
-        }
-        /* Depth d = -z divides x and y under perspective, and 1 does otherwise. The third
-         * column has no meaning there; it only keeps the matrix invertible. */
-        double w = ortho ? view[3] : -view[2];
-        double ndc[4] = {fx * view[0] + cx * w, -fy * view[1] + cy * w,
-                         -view[2] - (ortho ? 0.0 : view[3]), w};
-        for (int k = 0; k < 4; k++) {
-            out->world_to_camera[4 * row + k] = (float)view[k];
-            out->world_to_ndc[4 * row + k] = (float)ndc[k];
-        }
-    }
-    out->has_world_to_camera = true;
-    out->has_world_to_ndc = true;
-}
-
-/* n_world = transpose(world_to_view) * n_view */
-static void copy_normals(const scene_gbuffer *g, float *const out[3])
-{
-    size_t count = (size_t)g->desc.width * (size_t)g->desc.height;
-    const float *m = g->camera.world_to_view;
-
-    for (size_t i = 0; i < count; i++) {
-        const float *n = &g->normals[3 * i];
-        for (int k = 0; k < 3; k++)
-            out[k][i] = m[k] * n[0] + m[3 + k] * n[1] + m[6 + k] * n[2];
-    }
-}
-
 static int make_image(const scene_gbuffer *g, io_image *image, report *r)
 {
-    static const char *const names[] = {"N.X",      "N.Y",      "N.Z",     "Z",
-                                        "layer2.Z", "layer3.Z", "layer4.Z"};
+    static const char *const surfaces[] = {"N.X",      "N.Y",      "N.Z",     "Z",
+                                           "layer2.Z", "layer3.Z", "layer4.Z"};
+    static const char *const solids[] = {"N.X",      "N.Y",      "N.Z",     "Z",
+                                         "solid2.Z", "solid3.Z", "solid4.Z"};
+    const char *const *names = g->desc.layer_kind == CRV_LAYERS_SOLID ? solids : surfaces;
     size_t count = (size_t)g->desc.width * (size_t)g->desc.height;
     float *normals[3];
 
@@ -105,7 +61,7 @@ static int make_image(const scene_gbuffer *g, io_image *image, report *r)
         return EXIT_FAILED;
     for (int k = 0; k < 3; k++)
         normals[k] = io_image_find(image, names[k])->data;
-    copy_normals(g, normals);
+    gbuffer_world_normals(g, normals);
     for (int32_t layer = 0; layer < g->desc.layers; layer++)
         memcpy(io_image_find(image, names[3 + layer])->data, g->depth[layer],
                count * sizeof(float));
@@ -113,7 +69,7 @@ static int make_image(const scene_gbuffer *g, io_image *image, report *r)
     image->data_y = -g->desc.guard_top;
     image->display_width = g->desc.width - g->desc.guard_left - g->desc.guard_right;
     image->display_height = g->desc.height - g->desc.guard_top - g->desc.guard_bottom;
-    describe_camera(g, image);
+    gbuffer_describe_camera(g, image);
     return EXIT_DONE;
 }
 
@@ -128,7 +84,7 @@ static int run(const void *settings, report *r)
     if (result == EXIT_DONE)
         result = view_load(s, &model, r);
     if (result == EXIT_DONE)
-        result = view_render(s, model, &g, r);
+        result = view_render(s, model, false, &g, r);
     scene_free(model);
     if (result == EXIT_DONE)
         result = make_image(&g, &image, r);
@@ -145,7 +101,8 @@ const command command_gbuffer = {
     .synopsis = "MODEL -o FILE.exr [options]",
     .details =
         "Channels: Z (planar depth in scene units, infinite where there is nothing), "
-        "layer2.Z to layer4.Z, N.X N.Y N.Z (world space), all 32-bit floats. The "
+        "layer2.Z to layer4.Z (solid2.Z to solid4.Z with --layer-kind back, so that "
+        "`crevice ao` knows), N.X N.Y N.Z (world space), all 32-bit floats. The "
         "camera is in worldToCamera and worldToNDC; the guard band is overscan: the "
         "data window is larger than the display window.",
     .tables = tables,

@@ -51,13 +51,14 @@ static bool filter_reads(const crv_option *option, const crv_filter *filter)
            && crv_option_applies(option, NULL, NULL) == 0;
 }
 
-static void print_option_brief(const crv_option *option)
+/* method NULL: an option of a filter. */
+static void print_option_brief(const crv_option *option, const crv_method *method)
 {
     char flag[80], values[256], initial[64];
 
     help_option_flag(option, flag, sizeof flag);
     help_option_values(option, values, sizeof values);
-    help_option_default(option, initial, sizeof initial);
+    help_option_default(option, method, initial, sizeof initial);
     printf("    %-18s %s (%s)\n", flag, initial, values);
 }
 
@@ -73,10 +74,12 @@ static void print_method(const crv_method *method, bool all)
         if (!method_reads(option, method))
             continue;
         if (all)
-            help_library_option(stdout, option);
+            help_library_option(stdout, option, method);
         else
-            print_option_brief(option);
+            print_option_brief(option, method);
     }
+    printf("%s    presets (--preset):\n", all ? "\n" : "");
+    help_presets(stdout, method, 6);
 }
 
 static void print_filter(const crv_filter *filter, bool all)
@@ -90,9 +93,9 @@ static void print_filter(const crv_filter *filter, bool all)
         if (!filter_reads(option, filter))
             continue;
         if (all)
-            help_library_option(stdout, option);
+            help_library_option(stdout, option, NULL);
         else
-            print_option_brief(option);
+            print_option_brief(option, NULL);
     }
 }
 
@@ -111,14 +114,15 @@ static void print_all(void)
     }
 }
 
-static cJSON *option_json(const crv_option *option)
+/* method NULL: an option of a filter. */
+static cJSON *option_json(const crv_option *option, const crv_method *method)
 {
     static const char *const types[] = {"float", "int", "bool", "choice"};
     cJSON *object = cJSON_CreateObject();
     char flag[80], initial[64];
 
     help_option_flag(option, flag, sizeof flag);
-    help_option_default(option, initial, sizeof initial);
+    help_option_default(option, method, initial, sizeof initial);
     cJSON_AddStringToObject(object, "key", option->key);
     cJSON_AddStringToObject(object, "flag", flag);
     cJSON_AddStringToObject(object, "type", types[option->type]);
@@ -129,9 +133,10 @@ static cJSON *option_json(const crv_option *option)
             cJSON_AddItemToArray(choices, cJSON_CreateString(option->choices[i]));
         cJSON_AddStringToObject(object, "default", initial);
     } else if (option->type == CRV_OPTION_BOOL) {
-        cJSON_AddBoolToObject(object, "default", option->default_value > 0.0);
+        cJSON_AddBoolToObject(object, "default",
+                              help_default_value(option, method) > 0.0);
     } else {
-        cJSON_AddNumberToObject(object, "default", option->default_value);
+        cJSON_AddNumberToObject(object, "default", help_default_value(option, method));
         cJSON_AddNumberToObject(object, "min", option->min);
         cJSON_AddNumberToObject(object, "max", option->max);
     }
@@ -142,7 +147,7 @@ static cJSON *option_json(const crv_option *option)
 static void add_method(cJSON *list, const crv_method *method)
 {
     cJSON *object = cJSON_CreateObject();
-    cJSON *options;
+    cJSON *options, *presets;
 
     cJSON_AddStringToObject(object, "name", method->name);
     cJSON_AddStringToObject(object, "title", method->title);
@@ -151,7 +156,11 @@ static void add_method(cJSON *list, const crv_method *method)
     options = cJSON_AddArrayToObject(object, "options");
     for (int32_t i = 0; i < crv_option_count(); i++)
         if (method_reads(crv_option_at(i), method))
-            cJSON_AddItemToArray(options, option_json(crv_option_at(i)));
+            cJSON_AddItemToArray(options, option_json(crv_option_at(i), method));
+    presets = cJSON_AddObjectToObject(object, "presets");
+    for (int i = 0; i < CRV_PRESET_COUNT; i++)
+        cJSON_AddStringToObject(presets, crv_preset_name((crv_preset)i),
+                                crv_preset_text(method, (crv_preset)i));
     cJSON_AddItemToArray(list, object);
 }
 
@@ -166,7 +175,7 @@ static void add_filter(cJSON *list, const crv_filter *filter)
     options = cJSON_AddArrayToObject(object, "options");
     for (int32_t i = 0; i < crv_option_count(); i++)
         if (filter_reads(crv_option_at(i), filter))
-            cJSON_AddItemToArray(options, option_json(crv_option_at(i)));
+            cJSON_AddItemToArray(options, option_json(crv_option_at(i), NULL));
     cJSON_AddItemToArray(list, object);
 }
 
@@ -235,7 +244,7 @@ static int run(const void *settings, report *r)
 
 const command command_methods = {
     .name = "methods",
-    .summary = "what there is, from which paper, which options",
+    .summary = "what there is, from which paper, which options and presets",
     .synopsis = "[NAME] [--json]",
     .tables = tables,
     .examples = examples,

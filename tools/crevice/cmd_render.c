@@ -5,18 +5,9 @@
 #include "commands.h"
 #include "estimate.h"
 #include "output.h"
-#include "view.h"
+#include "render.h"
 
-enum { SHADE_AO, SHADE_LIT, SHADE_LIT_NO_AO };
-
-typedef struct render_settings {
-    view_settings view;
-    arg_int shade;
-    const char *lit, *unlit;
-    arg_int bits;
-    bool half;
-} render_settings;
-
+/* In the order of SHADE_AO ... */
 static const char *const shades[] = {"ao", "lit", "lit-no-ao", NULL};
 
 static const arg render_rows[] = {
@@ -61,7 +52,8 @@ static const arg render_rows[] = {
 static const arg_table render_table = ARG_TABLE("Pictures", render_rows);
 
 static const arg_table *const tables[] = {
-    &render_table, &view_camera, &view_buffers, &args_threads, &args_output_lines, NULL};
+    &render_table, &lighting_table, &relief_table,      &view_camera,
+    &view_buffers, &args_threads,   &args_output_lines, NULL};
 
 static const char *const examples[] = {
     "ambient occlusion of a mesh, framed by itself",
@@ -71,6 +63,9 @@ static const char *const examples[] = {
     "a chosen camera and radius, two depth layers",
     "crevice render hall.glb -o ao.exr --eye -8.5,1.2,-0.3 --target 0,2.8,0.3 --vfov 60 "
     "--radius 1 --layers 2",
+    "relief from a height map, lit by a picture of a sky alone",
+    "crevice render wall.glb -o ao.png --height-map bricks.png --height-scale 0.02 --lit "
+    "lit.png --sky sky.exr --key-light none",
     NULL,
 };
 
@@ -79,6 +74,10 @@ static int check(const render_settings *s, report *r)
     const char *paths[] = {s->view.output, s->lit, s->unlit};
     int result = view_check(&s->view, r);
 
+    if (result == EXIT_DONE)
+        result = relief_check(s, r);
+    if (result == EXIT_DONE)
+        result = lighting_check(s, r);
     for (int i = 0; i < 3 && result == EXIT_DONE; i++) {
         if (paths[i] == NULL)
             continue;
@@ -96,7 +95,7 @@ static int check(const render_settings *s, report *r)
 }
 
 static int estimate(const render_settings *s, const scene *model, const scene_gbuffer *g,
-                    io_image *ao, report *r)
+                    const io_image *map, io_image *ao, report *r)
 {
     crv_options options = s->view.common.options;
     estimator e;
@@ -114,6 +113,8 @@ static int estimate(const render_settings *s, const scene *model, const scene_gb
             result = EXIT_FAILED;
     }
     if (result == EXIT_DONE)
+        result = relief_apply(s, map, g, e.gbuffer, r);
+    if (result == EXIT_DONE)
         result = estimate_plan(&e, &options, r);
     if (result == EXIT_DONE)
         result = estimate_run(&e, ao, r);
@@ -130,9 +131,16 @@ static int write_image(const render_settings *s, const char *path, const io_imag
     return output_write(path, image, &options, r);
 }
 
+/* What lit pictures are made of. */
+typedef struct stage {
+    const scene *model;
+    const scene_gbuffer *buffers;
+    const scene_lighting *light;
+} stage;
+
 /* ao NULL: without ambient occlusion. */
-static int write_lit(const render_settings *s, const char *path, const scene *model,
-                     const scene_gbuffer *g, const io_image *ao, report *r)
+static int write_lit(const render_settings *s, const char *path, const stage *lit,
+                     const io_image *ao, report *r)
 {
     static const char *const names[] = {"R", "G", "B"};
     int32_t width = s->view.size.width, height = s->view.size.height;
@@ -147,8 +155,8 @@ static int write_lit(const render_settings *s, const char *path, const scene *mo
         return report_no_memory(r);
     if (ao != NULL)
         access = crv_image_packed(ao->channels[0].data, width, height, 1);
-    if (scene_shade(model, g, ao != NULL ? &access : NULL, &rgb,
-                    s->view.common.threads.value, &r->logger)
+    if (scene_shade(lit->model, lit->buffers, lit->light, ao != NULL ? &access : NULL,
+                    &rgb, s->view.common.threads.value, &r->logger)
             == 0
         && io_image_init(&image, width, height, names, 3, &r->logger) == 0) {
         for (size_t i = 0; i < count; i++)
@@ -161,8 +169,8 @@ static int write_lit(const render_settings *s, const char *path, const scene *mo
     return result;
 }
 
-static int write_all(const render_settings *s, const scene *model, const scene_gbuffer *g,
-                     const io_image *ao, report *r)
+static int write_all(const render_settings *s, const stage *lit, const io_image *ao,
+                     report *r)
 {
     const char *output = s->view.output;
     int result = EXIT_DONE;
@@ -170,35 +178,57 @@ static int write_all(const render_settings *s, const scene *model, const scene_g
     if (s->shade.value == SHADE_AO)
         result = write_image(s, output, ao, false, r);
     else
-        result =
-            write_lit(s, output, model, g, s->shade.value == SHADE_LIT ? ao : NULL, r);
+        result = write_lit(s, output, lit, s->shade.value == SHADE_LIT ? ao : NULL, r);
     if (result == EXIT_DONE && s->lit != NULL)
-        result = write_lit(s, s->lit, model, g, ao, r);
+        result = write_lit(s, s->lit, lit, ao, r);
     if (result == EXIT_DONE && s->unlit != NULL)
-        result = write_lit(s, s->unlit, model, g, NULL, r);
+        result = write_lit(s, s->unlit, lit, NULL, r);
     return result;
+}
+
+/* All that render reads and makes on its way. */
+typedef struct work {
+    scene *model;
+    scene_gbuffer buffers;
+    io_image map, ao;
+    lighting light;
+} work;
+
+static void free_work(work *w)
+{
+    lighting_free(&w->light);
+    io_image_free(&w->ao);
+    io_image_free(&w->map);
+    scene_gbuffer_free(&w->buffers);
+    scene_free(w->model);
 }
 
 static int run(const void *settings, report *r)
 {
     const render_settings *s = settings;
     bool needs_ao = s->shade.value != SHADE_LIT_NO_AO || s->lit != NULL;
-    scene *model = NULL;
-    scene_gbuffer g = {0};
-    io_image ao = {0};
+    work w = {0};
+    stage lit;
     int result = check(s, r);
 
     if (result == EXIT_DONE)
-        result = view_load(&s->view, &model, r);
+        result = lighting_load(s, &w.light, r);
     if (result == EXIT_DONE)
-        result = view_render(&s->view, model, &g, r);
+        result = relief_load(s, &w.map, r);
+    if (result == EXIT_DONE)
+        result = view_load(&s->view, &w.model, r);
+    if (result == EXIT_DONE)
+        result = view_render(&s->view, w.model, s->height_map != NULL, &w.buffers, r);
+    if (result == EXIT_DONE)
+        result = relief_check_mesh(s, &w.buffers, r);
     if (result == EXIT_DONE && needs_ao)
-        result = estimate(s, model, &g, &ao, r);
-    if (result == EXIT_DONE)
-        result = write_all(s, model, &g, &ao, r);
-    io_image_free(&ao);
-    scene_gbuffer_free(&g);
-    scene_free(model);
+        result = estimate(s, w.model, &w.buffers, &w.map, &w.ao, r);
+    if (result == EXIT_DONE) {
+        relief_bend_normals(s, &w.map, &w.buffers);
+        lit = (stage){w.model, &w.buffers, &w.light.scene};
+        result = write_all(s, &lit, &w.ao, r);
+    }
+    free_work(&w);
     return result;
 }
 
@@ -208,9 +238,13 @@ const command command_render = {
     .synopsis = "MODEL -o FILE [options]",
     .details =
         "The mesh is drawn by ray casting, so no GPU is needed. Without a camera it "
-        "is framed by itself; without a radius one is chosen, and told.",
+        "is framed by itself; without a radius one is chosen, and told. A height map "
+        "gives it relief that the mesh does not have; the lit pictures take their light "
+        "from it, too, but shadows fall as on the mesh.",
     .tables = tables,
     .library_options = true,
+    .method_flag = "--height-map",
+    .method_of_flag = "vao",
     .examples = examples,
     .settings_size = sizeof(render_settings),
     .run = run,

@@ -19,9 +19,10 @@ int estimate_open(estimator *e, const common_settings *common, report *r)
 static bool same_desc(const crv_gbuffer_desc *a, const crv_gbuffer_desc *b)
 {
     return a->width == b->width && a->height == b->height && a->layers == b->layers
-           && a->guard_left == b->guard_left && a->guard_top == b->guard_top
-           && a->guard_right == b->guard_right && a->guard_bottom == b->guard_bottom
-           && a->origin_x == b->origin_x && a->origin_y == b->origin_y;
+           && a->layer_kind == b->layer_kind && a->guard_left == b->guard_left
+           && a->guard_top == b->guard_top && a->guard_right == b->guard_right
+           && a->guard_bottom == b->guard_bottom && a->origin_x == b->origin_x
+           && a->origin_y == b->origin_y;
 }
 
 void estimate_fit(estimator *e, const crv_gbuffer_desc *desc)
@@ -50,18 +51,23 @@ int estimate_plan(estimator *e, const crv_options *options, report *r)
                : EXIT_FAILED;
 }
 
-/* "hbao 8x8, radius 1, bilateral13: 0.41 s" */
+static bool reads(const crv_options *o, const char *key)
+{
+    const crv_option *option = crv_option_find(key);
+
+    return option != NULL && crv_option_applies(option, o->method, o->filter) != 0;
+}
+
+/* "hbao 8x8, radius 1, bilateral13: 0.41 s", "vao 12 samples, radius ..." */
 static void tell(const estimator *e, double seconds, report *r)
 {
     const crv_options *o = &e->options;
-    const crv_option *directions = crv_option_find("directions");
-    const crv_option *steps = crv_option_find("steps");
     char samples[32] = "";
 
-    if (directions != NULL && steps != NULL
-        && crv_option_applies(directions, o->method, o->filter)
-        && crv_option_applies(steps, o->method, o->filter))
+    if (reads(o, "directions") && reads(o, "steps"))
         snprintf(samples, sizeof samples, " %dx%d", o->directions, o->steps);
+    else if (reads(o, "samples"))
+        snprintf(samples, sizeof samples, " %d samples", o->samples);
     report_info(r, "%s%s, radius %g, %s: %.2f s", o->method->name, samples,
                 (double)o->radius, o->filter != NULL ? o->filter->name : "no filter",
                 seconds);

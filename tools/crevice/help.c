@@ -82,24 +82,37 @@ void help_option_values(const crv_option *option, char *out, size_t size)
     }
 }
 
-void help_option_default(const crv_option *option, char *out, size_t size)
+double help_default_value(const crv_option *option, const crv_method *method)
 {
-    if (option->type == CRV_OPTION_BOOL)
-        snprintf(out, size, "%s", option->default_value > 0.0 ? "on" : "off");
-    else if (option->type == CRV_OPTION_CHOICE)
-        snprintf(out, size, "%s", option->choices[(int32_t)option->default_value]);
-    else
-        snprintf(out, size, "%.6g", option->default_value);
+    crv_options options;
+
+    if (crv_options_init(&options, sizeof options, method != NULL ? method->name : NULL)
+        != CRV_OK)
+        return option->default_value;
+    return crv_options_get(&options, option);
 }
 
-void help_library_option(FILE *out, const crv_option *option)
+void help_option_default(const crv_option *option, const crv_method *method, char *out,
+                         size_t size)
+{
+    double value = help_default_value(option, method);
+
+    if (option->type == CRV_OPTION_BOOL)
+        snprintf(out, size, "%s", value > 0.0 ? "on" : "off");
+    else if (option->type == CRV_OPTION_CHOICE)
+        snprintf(out, size, "%s", option->choices[(int32_t)value]);
+    else
+        snprintf(out, size, "%.6g", value);
+}
+
+void help_library_option(FILE *out, const crv_option *option, const crv_method *method)
 {
     static const char *const value_names[] = {"X", "N", "on|off", "NAME"};
     char flag[80], head[96], values[256], initial[64], text[ENTRY_SIZE];
 
     help_option_flag(option, flag, sizeof flag);
     help_option_values(option, values, sizeof values);
-    help_option_default(option, initial, sizeof initial);
+    help_option_default(option, method, initial, sizeof initial);
     snprintf(head, sizeof head, "%s %s", flag, value_names[option->type]);
     if (strcmp(option->key, "radius") == 0)
         snprintf(initial, sizeof initial, "chosen to suit the input");
@@ -107,27 +120,57 @@ void help_library_option(FILE *out, const crv_option *option)
     write_entry(out, head, text);
 }
 
-static void write_library_options(FILE *out)
+void help_presets(FILE *out, const crv_method *method, int indent)
+{
+    for (int i = 0; i < CRV_PRESET_COUNT; i++) {
+        int column = fprintf(out, "%*s%-8s", indent, "", crv_preset_name((crv_preset)i));
+        write_wrapped(out, crv_preset_text(method, (crv_preset)i), column, column);
+    }
+}
+
+static void write_presets(FILE *out, const crv_method *method)
+{
+    char text[ENTRY_SIZE];
+    size_t used = (size_t)snprintf(text, sizeof text, "what to spend: ");
+
+    for (int i = 0; i < CRV_PRESET_COUNT && used < sizeof text; i++)
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s",
+                                 i == 0 ? "" : "|", crv_preset_name((crv_preset)i));
+    if (used < sizeof text)
+        snprintf(text + used, sizeof text - used,
+                 ". Options that are given themselves win over it [default %s]. For "
+                 "--method %s:",
+                 crv_preset_name(CRV_PRESET_MEDIUM), method->name);
+    write_entry(out, "--preset NAME", text);
+    help_presets(out, method, COLUMN + 2);
+}
+
+static void write_library_options(FILE *out, const char *command_name,
+                                  const crv_method *method)
 {
     char text[ENTRY_SIZE] = "how to estimate: ";
     size_t used = strlen(text);
 
     fprintf(out,
-            "\nAmbient occlusion (see `crevice methods` for which method reads what):\n");
+            "\nAmbient occlusion (see `crevice methods` for which method reads what; "
+            "defaults here\nare those of %s, `crevice %s --method NAME --help` has "
+            "another's):\n",
+            method->name, command_name);
     for (int32_t i = 0; i < crv_method_count() && used < sizeof text; i++)
         used += (size_t)snprintf(text + used, sizeof text - used, "%s%s",
                                  i == 0 ? "" : "|", crv_method_at(i)->name);
     write_entry(out, "--method NAME", text);
+    write_presets(out, method);
     used = (size_t)snprintf(text, sizeof text, "how to smooth the result: none");
     for (int32_t i = 0; i < crv_filter_count() && used < sizeof text; i++)
         used += (size_t)snprintf(text + used, sizeof text - used, "|%s",
                                  crv_filter_at(i)->name);
     write_entry(out, "--filter NAME", text);
     for (int32_t i = 0; i < crv_option_count(); i++)
-        help_library_option(out, crv_option_at(i));
+        help_library_option(out, crv_option_at(i), method);
 }
 
-void help_command(FILE *out, const command *c)
+void help_command(FILE *out, const command *c, const crv_method *method)
 {
     fprintf(out, "usage: crevice %s %s\n\n", c->name, c->synopsis);
     write_wrapped(out, c->summary, 0, 0);
@@ -141,7 +184,7 @@ void help_command(FILE *out, const command *c)
             write_row(out, &c->tables[t]->rows[i]);
     }
     if (c->library_options)
-        write_library_options(out);
+        write_library_options(out, c->name, method);
     fprintf(out, "\nExamples:\n");
     for (size_t i = 0; c->examples[i] != NULL; i += 2)
         fprintf(out, "  # %s\n  %s\n", c->examples[i], c->examples[i + 1]);

@@ -7,20 +7,29 @@
 
 #include "args.h"
 
-/* All about one command. */
-void help_command(FILE *out, const command *c);
+/* All about one command; presets and defaults are those of the method. */
+void help_command(FILE *out, const command *c, const crv_method *method);
 
 /* What there is; commands NULL-terminated. */
 void help_overview(FILE *out, const command *const *commands);
 
-/* A line of the library's option table: flag, help, unit, range, default. */
-void help_library_option(FILE *out, const crv_option *option);
+/* A line of the library's option table: flag, help, unit, range, and the default that the
+ * method has for it (NULL: the default method). */
+void help_library_option(FILE *out, const crv_option *option, const crv_method *method);
+
+/* What each preset of a method sets, a line each, indented. */
+void help_presets(FILE *out, const crv_method *method, int indent);
 
 /* "--max-radius-px" for "max_radius_px". */
 void help_option_flag(const crv_option *option, char *out, size_t size);
 
-/* The range or choices, and the default, as the user would write them. */
+/* The range or choices as the user would write them. */
 void help_option_values(const crv_option *option, char *out, size_t size);
-void help_option_default(const crv_option *option, char *out, size_t size);
+
+/* What a method has an option at by default: as a number, and as the user would write it.
+ */
+double help_default_value(const crv_option *option, const crv_method *method);
+void help_option_default(const crv_option *option, const crv_method *method, char *out,
+                         size_t size);
 
 #endif

@@ -6,9 +6,9 @@
 #include "commands.h"
 #include "help.h"
 
-static const command *const commands[] = {&command_render,  &command_ao,
-                                          &command_gbuffer, &command_compare,
-                                          &command_methods, NULL};
+static const command *const commands[] = {
+    &command_render,  &command_ao, &command_gbuffer, &command_compare,
+    &command_methods, NULL};
 
 static const command *find_command(const char *name, report *r)
 {
@@ -38,7 +38,7 @@ static int help(int argc, char **argv, report *r)
     const command *c = find_command(argv[0], r);
     if (c == NULL)
         return EXIT_USAGE;
-    help_command(stdout, c);
+    help_command(stdout, c, args_method(c, argc - 1, argv + 1));
     return EXIT_DONE;
 }
 
@@ -56,7 +56,7 @@ static int run_command(const command *c, int argc, char **argv, report *r)
     int result;
 
     if (wants_help(argc, argv)) {
-        help_command(stdout, c);
+        help_command(stdout, c, args_method(c, argc, argv));
         return EXIT_DONE;
     }
     settings = calloc(1, c->settings_size);

@@ -21,6 +21,47 @@ int64_t metrics_count_not_finite(const float *a, const uint8_t *mask, int32_t wi
     return found;
 }
 
+static int by_value(const void *x, const void *y)
+{
+    const double *a = x, *b = y;
+
+    return (*a > *b) - (*a < *b);
+}
+
+/* Of the n values in order the first is at 0, the last at 1, the others evenly between.
+ */
+static double quantile(const double *sorted, size_t n, double q)
+{
+    double at = q * (double)(n - 1);
+    size_t i = (size_t)at;
+    double next = i + 1 < n ? sorted[i + 1] : sorted[i];
+
+    return sorted[i] + (at - (double)i) * (next - sorted[i]);
+}
+
+static bool compare_signed(const float *a, const float *b, const uint8_t *mask,
+                           int32_t width, int32_t height, metrics *out)
+{
+    size_t count = (size_t)width * (size_t)height, n = 0;
+    double *errors = malloc((count > 0 ? count : 1) * sizeof *errors);
+    double sum = 0.0;
+
+    if (errors == NULL)
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        if (mask != NULL && !mask[i])
+            continue;
+        errors[n] = (double)a[i] - (double)b[i];
+        sum += errors[n++];
+    }
+    qsort(errors, n, sizeof *errors, by_value);
+    out->bias = sum / (double)n;
+    out->error_q01 = n > 0 ? quantile(errors, n, 0.01) : NAN;
+    out->error_q99 = n > 0 ? quantile(errors, n, 0.99) : NAN;
+    free(errors);
+    return true;
+}
+
 static void compare_pixels(const float *a, const float *b, const uint8_t *mask,
                            int32_t width, int32_t height, metrics *out)
 {
@@ -144,5 +185,6 @@ bool metrics_compare(const float *a, const float *b, const uint8_t *mask, int32_
 {
     *out = (metrics){0};
     compare_pixels(a, b, mask, width, height, out);
-    return compare_windows(a, b, mask, width, height, out);
+    return compare_signed(a, b, mask, width, height, out)
+           && compare_windows(a, b, mask, width, height, out);
 }

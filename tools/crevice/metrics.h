@@ -10,6 +10,9 @@ typedef struct metrics {
     int64_t pixels; /* compared */
     double mean_a, mean_b;
     double rmse, mae;
+    double bias; /* mean of the signed error a - b */
+    /* 1 and 99 percent of the signed errors are below; between two errors in a line. */
+    double error_q01, error_q99;
     double psnr_db; /* of a peak of 1; INFINITY for equal pictures */
     /* Wang, Bovik, Sheikh, Simoncelli 2004: 11x11 Gaussian windows of sigma 1.5, K1 0.01,
      * K2 0.03, dynamic range 1, over the windows that lie wholly inside the picture and

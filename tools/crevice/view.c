@@ -72,7 +72,8 @@ static const arg buffer_rows[] = {
      .initial = "next",
      .choices = layer_kinds,
      .offset = offsetof(view_settings, layer_kind),
-     .help = "what a further layer holds: the next surface, or the next back face"},
+     .help = "next: each further layer is the next surface; back: they alternate between "
+             "the backs and fronts of solids, which occlude in between only"},
     {.name = "--normals-from",
      .value = "KIND",
      .type = ARG_CHOICE,
@@ -167,21 +168,28 @@ static void copy3(float to[3], const float from[3])
     memcpy(to, from, 3 * sizeof *to);
 }
 
+void view_cross(const double a[3], const double b[3], double out[3])
+{
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        out[i] = a[j] * b[k] - a[k] * b[j];
+    }
+}
+
 /* What sin^2 of the angle between the view and `up` is; NAN where the view is a point. */
 static double up_slant(const scene_view *v)
 {
-    double d[3], cross[3], d2 = 0.0, up2 = 0.0, cross2 = 0.0;
+    double d[3], up[3], cross[3], d2 = 0.0, up2 = 0.0, cross2 = 0.0;
 
     for (int i = 0; i < 3; i++) {
         d[i] = (double)v->target[i] - (double)v->eye[i];
+        up[i] = (double)v->up[i];
         d2 += d[i] * d[i];
-        up2 += (double)v->up[i] * (double)v->up[i];
+        up2 += up[i] * up[i];
     }
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
-        cross[i] = d[j] * (double)v->up[k] - d[k] * (double)v->up[j];
+    view_cross(d, up, cross);
+    for (int i = 0; i < 3; i++)
         cross2 += cross[i] * cross[i];
-    }
     return cross2 / (d2 * up2);
 }
 
@@ -242,7 +250,8 @@ static void tell_view(const scene_view *v, report *r)
                 ortho ? (double)v->view_height : (double)v->vfov_rad / degree);
 }
 
-int view_render(const view_settings *s, const scene *model, scene_gbuffer *out, report *r)
+int view_render(const view_settings *s, const scene *model, bool texture_frames,
+                scene_gbuffer *out, report *r)
 {
     scene_gbuffer_request request = {
         .width = s->size.width,
@@ -253,6 +262,7 @@ int view_render(const view_settings *s, const scene *model, scene_gbuffer *out, 
         .normals =
             s->normals_from.value == 0 ? SCENE_NORMALS_INTERPOLATED : SCENE_NORMALS_FACE,
         .threads = s->common.threads.value,
+        .texture_frames = texture_frames,
     };
     double start = report_seconds();
     int result = choose_view(s, model, &request.view, r);

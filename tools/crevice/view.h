@@ -35,8 +35,12 @@ int view_check(const view_settings *s, report *r);
 /* Loads the model, or makes the built-in one. */
 int view_load(const view_settings *s, scene **out, report *r);
 
-/* Chooses the camera and ray-casts the G-buffer. */
-int view_render(const view_settings *s, const scene *model, scene_gbuffer *out,
-                report *r);
+/* Chooses the camera and ray-casts the G-buffer, texture frames included where they are
+ * wanted. */
+int view_render(const view_settings *s, const scene *model, bool texture_frames,
+                scene_gbuffer *out, report *r);
+
+/* The cross product. */
+void view_cross(const double a[3], const double b[3], double out[3]);
 
 #endif

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: MIT */
+#include "gbuffer_image.h"
+
+/* Row-vector matrices: p' = p * M, so M is the transpose of the matrix for column
+ * vectors. */
+void gbuffer_describe_camera(const scene_gbuffer *g, io_image *image)
+{
+    io_camera_metadata *out = &image->camera;
+    const float *rotation = g->camera.world_to_view;
+    double fx = (double)g->camera.fx_px / image->display_width;
+    double fy = (double)g->camera.fy_px / image->display_height;
+    double cx = ((double)g->camera.cx_px - g->desc.guard_left) / image->display_width;
+    double cy = ((double)g->camera.cy_px - g->desc.guard_top) / image->display_height;
+    bool ortho = g->camera.projection == CRV_ORTHOGRAPHIC;
+
+    for (int row = 0; row < 4; row++) {
+        double view[4] = {0.0, 0.0, 0.0, row == 3 ? 1.0 : 0.0};
+
+        for (int k = 0; k < 3; k++) {
+            if (row < 3)
+                view[k] = (double)rotation[3 * k + row];
+            for (int i = 0; i < 3 && row == 3; i++)
+                view[k] -= (double)rotation[3 * k + i] * (double)g->view.eye[i];
+        }
+        /* Depth d = -z divides x and y under perspective, and 1 does otherwise. The third
+         * column has no meaning there; it only keeps the matrix invertible. */
+        double w = ortho ? view[3] : -view[2];
+        double ndc[4] = {fx * view[0] + cx * w, -fy * view[1] + cy * w,
+                         -view[2] - (ortho ? 0.0 : view[3]), w};
+        for (int k = 0; k < 4; k++) {
+            out->world_to_camera[4 * row + k] = (float)view[k];
+            out->world_to_ndc[4 * row + k] = (float)ndc[k];
+        }
+    }
+    out->has_world_to_camera = true;
+    out->has_world_to_ndc = true;
+}
+
+/* n_world = transpose(world_to_view) * n_view */
+void gbuffer_world_normals(const scene_gbuffer *g, float *const out[3])
+{
+    size_t count = (size_t)g->desc.width * (size_t)g->desc.height;
+    const float *m = g->camera.world_to_view;
+
+    for (size_t i = 0; i < count; i++) {
+        const float *n = &g->normals[3 * i];
+        for (int k = 0; k < 3; k++)
+            out[k][i] = m[k] * n[0] + m[3 + k] * n[1] + m[6 + k] * n[2];
+    }
+}

@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: MIT */
+/* gbuffer_image.h: what pictures say of the G-buffer that they were made from. */
+#ifndef TOOL_GBUFFER_IMAGE_H
+#define TOOL_GBUFFER_IMAGE_H
+
+#include "io.h"
+#include "scene.h"
+
+/* Sets the camera metadata; the image's display window is the picture without the guard
+ * band. */
+void gbuffer_describe_camera(const scene_gbuffer *g, io_image *image);
+
+/* Normals in world space, guard band included, a plane for each component. */
+void gbuffer_world_normals(const scene_gbuffer *g, float *const out[3]);
+
+#endif

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: MIT */
+/* Each side is a straight line in CIELAB from white to a dark end of the same lightness,
+ * so equal steps of the error are about equal steps to the eye. */
+#include "heatmap.h"
+
+#include <math.h>
+
+static const double white_lightness = 97.0, end_lightness = 35.0;
+/* a* and b* of the ends: hues 275 and 55 degrees, as saturated as sRGB holds at that
+ * lightness. */
+static const double blue_end[2] = {3.0, -38.0}, orange_end[2] = {28.0, 40.0};
+
+const float heatmap_background = 0.2140411f; /* sRGB 0.5 */
+
+static double lab_inverse(double f)
+{
+    const double delta = 6.0 / 29.0;
+
+    return f > delta ? f * f * f : 3.0 * delta * delta * (f - 4.0 / 29.0);
+}
+
+void heatmap_color(double t, float linear[3])
+{
+    /* XYZ of D65 white to linear sRGB, IEC 61966-2-1. */
+    static const double to_rgb[3][3] = {{3.2404542, -1.5371385, -0.4985314},
+                                        {-0.9692660, 1.8760108, 0.0415560},
+                                        {0.0556434, -0.2040259, 1.0572252}};
+    double size = fmin(fabs(t), 1.0);
+    const double *end = t < 0.0 ? blue_end : orange_end;
+    double lightness = white_lightness + (end_lightness - white_lightness) * size;
+    double fy = (lightness + 16.0) / 116.0;
+    double x = 0.9504700 * lab_inverse(fy + end[0] * size / 500.0);
+    double y = lab_inverse(fy);
+    double z = 1.0888300 * lab_inverse(fy - end[1] * size / 200.0);
+
+    for (int i = 0; i < 3; i++) {
+        double value = to_rgb[i][0] * x + to_rgb[i][1] * y + to_rgb[i][2] * z;
+        linear[i] = (float)fmin(fmax(value, 0.0), 1.0);
+    }
+}
+
+void heatmap_fill(const float *a, const float *b, const uint8_t *mask, size_t count,
+                  double scale, float *red, float *green, float *blue)
+{
+    for (size_t i = 0; i < count; i++) {
+        float color[3] = {heatmap_background, heatmap_background, heatmap_background};
+
+        if (mask == NULL || mask[i])
+            heatmap_color(((double)a[i] - (double)b[i]) / scale, color);
+        red[i] = color[0];
+        green[i] = color[1];
+        blue[i] = color[2];
+    }
+}

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: MIT */
+#include "metrics_print.h"
+
+#include <cjson/cJSON.h>
+#include <math.h>
+#include <stdio.h>
+
+static void add_number(cJSON *object, const char *key, double value)
+{
+    if (isfinite(value))
+        cJSON_AddNumberToObject(object, key, value);
+    else
+        cJSON_AddNullToObject(object, key);
+}
+
+static void add_differences(cJSON *root, const metrics *m)
+{
+    add_number(root, "pixels", (double)m->pixels);
+    add_number(root, "mean_a", m->mean_a);
+    add_number(root, "mean_b", m->mean_b);
+    add_number(root, "bias", m->bias);
+    add_number(root, "rmse", m->rmse);
+    add_number(root, "mae", m->mae);
+    add_number(root, "psnr_db", m->psnr_db);
+    add_number(root, "ssim", m->ssim);
+    add_number(root, "ssim_windows", (double)m->ssim_windows);
+    add_number(root, "max_error", m->max_error);
+    add_number(root, "max_x", m->max_x);
+    add_number(root, "max_y", m->max_y);
+    add_number(root, "error_q01", m->error_q01);
+    add_number(root, "error_q99", m->error_q99);
+}
+
+static void add_fit(cJSON *root, const metrics_fit *fit)
+{
+    add_number(root, "fit_power", fit->power.power);
+    add_number(root, "fit_power_rmse", fit->power.rmse);
+    add_number(root, "fit_intensity", fit->intensity.intensity);
+    add_number(root, "fit_intensity_rmse", fit->intensity.rmse);
+    add_number(root, "fit_both_intensity", fit->both.intensity);
+    add_number(root, "fit_both_power", fit->both.power);
+    add_number(root, "fit_both_rmse", fit->both.rmse);
+}
+
+int metrics_print_json(const metrics_findings *f, report *r)
+{
+    cJSON *root = cJSON_CreateObject();
+    char *text;
+
+    cJSON_AddStringToObject(root, "a", f->a);
+    cJSON_AddStringToObject(root, "b", f->b);
+    add_number(root, "width", f->width);
+    add_number(root, "height", f->height);
+    add_differences(root, &f->m);
+    add_number(root, "flip", f->flip);
+    add_number(root, "flip_ppd", f->flip_ppd);
+    add_fit(root, &f->fit);
+    if (f->heat_map != NULL) {
+        cJSON_AddStringToObject(root, "heat_map", f->heat_map);
+        add_number(root, "heat_scale", f->heat_scale);
+    }
+    text = cJSON_Print(root);
+    cJSON_Delete(root);
+    if (text == NULL)
+        return report_no_memory(r);
+    puts(text);
+    cJSON_free(text);
+    return EXIT_DONE;
+}
+
+void metrics_print_text(const metrics_findings *f)
+{
+    const metrics *m = &f->m;
+
+    printf("pixels   %lld of %lld\n", (long long)m->pixels,
+           (long long)f->width * f->height);
+    printf("mean     %.6f and %.6f\n", m->mean_a, m->mean_b);
+    printf("bias     %+.6f\n", m->bias);
+    printf("RMSE     %.6f\n", m->rmse);
+    printf("MAE      %.6f\n", m->mae);
+    printf("PSNR     %.2f dB\n", m->psnr_db);
+    if (m->ssim_windows > 0)
+        printf("SSIM     %.6f\n", m->ssim);
+    else
+        printf("SSIM     none: no 11x11 window without background\n");
+    printf("FLIP     %.6f\n", f->flip);
+    printf("largest  %.6f at (%d, %d)\n", m->max_error, m->max_x, m->max_y);
+    printf("errors   %+.6f to %+.6f but for 1 %% on each side\n", m->error_q01,
+           m->error_q99);
+    printf("fitted   RMSE %.6f after power %.4f\n", f->fit.power.rmse,
+           f->fit.power.power);
+    printf("         RMSE %.6f after intensity %.4f\n", f->fit.intensity.rmse,
+           f->fit.intensity.intensity);
+    printf("         RMSE %.6f after intensity %.4f and power %.4f\n", f->fit.both.rmse,
+           f->fit.both.intensity, f->fit.both.power);
+}
