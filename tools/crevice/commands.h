@@ -8,6 +8,7 @@
 extern const command command_render;
 extern const command command_ao;
 extern const command command_gbuffer;
+extern const command command_reference;
 extern const command command_compare;
 extern const command command_methods;
 

@@ -7,7 +7,7 @@
 #include "help.h"
 
 static const command *const commands[] = {
-    &command_render,  &command_ao, &command_gbuffer, &command_compare,
+    &command_render,  &command_ao, &command_gbuffer, &command_reference, &command_compare,
     &command_methods, NULL};
 
 static const command *find_command(const char *name, report *r)

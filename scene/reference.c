@@ -1,0 +1,200 @@
+/* SPDX-License-Identifier: MIT */
+#include <stdlib.h>
+#include <string.h>
+
+#include "reference_internal.h"
+#include "reference_sheets.h"
+#include "sampling.h"
+
+/*
+ * Rays begin off the surface on the viewer's side, along the triangle's own normal, by
+ * this share of the largest length that took part in rounding: coordinates, depth, and
+ * the size of the triangles, whose planes the ray caster knows to about 2e-7 of it. Ten
+ * ulps keep a plane from shading itself; a gap or contact smaller than that is lost.
+ */
+#define OFFSET_SHARE 1e-6f
+
+static int refuse(const crv_logger *log, const char *text)
+{
+    scene_log(log, CRV_LOG_ERROR, "reference", "%s", text);
+    return -1;
+}
+
+static bool in_range(float value, float low, float high)
+{
+    return value >= low && value <= high; /* false for NaN */
+}
+
+static int check_options(const reference_options *o, const crv_logger *log)
+{
+    if (!in_range(o->radius, 1e-30f, 1e18f))
+        return refuse(log, "has an impossible radius; give one above 0");
+    if (o->rays < 1 || o->rays > REFERENCE_MAX_RAYS)
+        return refuse(log, "has an impossible number of rays; give 1 to 65536");
+    if (!in_range(o->max_error, 0.0f, 1.0f))
+        return refuse(log, "has an impossible error to stop at; give 0 to 1");
+    if (!in_range(o->tau, 0.0f, 1e6f) || !in_range(o->u, 1e-6f, 1e6f))
+        return refuse(log, "has an impossible falloff; give tau 0 or more, u above 0");
+    return 0;
+}
+
+static float largest_length(const scene *s)
+{
+    float largest = 0.0f;
+    for (int axis = 0; axis < 3; axis++) {
+        float corner = fmaxf(fabsf(s->lower[axis]), fabsf(s->upper[axis]));
+        largest = fmaxf(largest, fmaxf(corner, s->upper[axis] - s->lower[axis]));
+    }
+    return largest;
+}
+
+static bool allocate(reference *r)
+{
+    size_t count = (size_t)r->width * (size_t)r->height;
+    r->accessibility = calloc(count, 2 * sizeof(float));
+    r->error = r->accessibility ? r->accessibility + count : NULL;
+    return r->accessibility != NULL;
+}
+
+int reference_create(const scene *s, const scene_gbuffer *g, const reference_options *o,
+                     reference **out, const crv_logger *log)
+{
+    const crv_gbuffer_desc *d = &g->desc;
+    reference *r;
+    if (check_options(o, log))
+        return -1;
+    r = calloc(1, sizeof *r);
+    if (!r)
+        return refuse(log, "out of memory; close other programs");
+    *r = (reference){.scene = s, .occluders = s, .gbuffer = g, .options = *o};
+    r->width = d->width - d->guard_left - d->guard_right;
+    r->height = d->height - d->guard_top - d->guard_bottom;
+    r->offset = OFFSET_SHARE * largest_length(s);
+    if (!scene_axes_of_view(&g->view, &r->axes) || !allocate(r)) {
+        reference_free(r);
+        return refuse(log, "out of memory; make the picture smaller");
+    }
+    if (o->kind == REFERENCE_VISIBLE) {
+        if (reference_make_sheets(g, (double)o->radius, &r->sheets, log)) {
+            reference_free(r);
+            return -1;
+        }
+        r->occluders = r->sheets;
+    }
+    if (r->offset > 0.01f * o->radius)
+        scene_log(log, CRV_LOG_WARNING, "reference",
+                  "the radius %g is so small for this scene that rays begin %.2g of it "
+                  "off the surface; leave out what makes the scene large",
+                  (double)o->radius, (double)(r->offset / o->radius));
+    reference_take_fingerprint(r);
+    *out = r;
+    return 0;
+}
+
+void reference_free(reference *r)
+{
+    if (!r)
+        return;
+    scene_free(r->sheets);
+    free(r->accessibility);
+    free(r);
+}
+
+static vec3 to_world(const scene_axes *axes, vec3 v)
+{
+    return v3_along(v3_along(v3_scale(axes->right, v.x), axes->up, v.y), axes->back, v.z);
+}
+
+static double offset_at(const reference *r, double depth)
+{
+    return fmax((double)r->offset, (double)OFFSET_SHARE * depth);
+}
+
+/* The surface of the scene itself; false: background. */
+static bool find_point(const reference *r, const pixel_ray *ray, reference_point *out)
+{
+    surface_hit hit;
+    vec3 side;
+    if (!find_surface(r->scene, ray, 0.0f, &hit))
+        return false;
+    side = hit.from_back ? v3_scale(hit.face, -1.0) : hit.face;
+    out->normal = surface_normal(r->scene, ray, &hit, r->options.normals);
+    out->origin = v3_along(v3_along(ray->origin, ray->direction, hit.depth), side,
+                           offset_at(r, hit.depth));
+    return true;
+}
+
+/* The vertex of layer 0's sheet. A depth buffer's surface never folds back over the
+ * viewing ray, so towards the viewer is off the surface whatever its slope; a slanted
+ * one needs more of it. */
+static bool find_sheet_point(const reference *r, const pixel_ray *ray, size_t pixel,
+                             reference_point *out)
+{
+    double depth = (double)r->gbuffer->depth[0][pixel], facing;
+    vec3 to_viewer = v3_scale(v3_normalize(ray->direction), -1.0);
+    if (!(depth > 0.0 && isfinite(depth)))
+        return false;
+    out->normal =
+        v3_normalize(to_world(&r->axes, v3_from(r->gbuffer->normals + 3 * pixel)));
+    if (!(v3_dot(out->normal, out->normal) > 0.5))
+        out->normal = to_viewer;
+    facing = fmax(v3_dot(out->normal, to_viewer), 0.01);
+    out->origin = v3_along(v3_along(ray->origin, ray->direction, depth), to_viewer,
+                           offset_at(r, depth) / facing);
+    return true;
+}
+
+reference_value reference_pixel(const reference *r, int32_t x, int32_t y)
+{
+    const crv_gbuffer_desc *d = &r->gbuffer->desc;
+    int32_t column = x + d->guard_left, row = y + d->guard_top;
+    size_t pixel = (size_t)row * (size_t)d->width + (size_t)column;
+    uint64_t index = (uint64_t)y * (uint64_t)r->width + (uint64_t)x;
+    pixel_ray ray = ray_through_pixel(&r->gbuffer->camera, &r->axes, column, row);
+    reference_point point;
+    bool found = r->options.kind == REFERENCE_VISIBLE
+                     ? find_sheet_point(r, &ray, pixel, &point)
+                     : find_point(r, &ray, &point);
+    if (!found)
+        return (reference_value){.accessibility = 1.0f};
+    return reference_trace(r, &point,
+                           sampling_mix(index ^ sampling_mix(r->options.seed)));
+}
+
+int64_t reference_total(const reference *r)
+{
+    return (int64_t)r->width * (int64_t)r->height;
+}
+
+int64_t reference_done(const reference *r)
+{
+    return r->done;
+}
+
+void reference_advance(reference *r, int64_t pixels, int32_t threads)
+{
+    int64_t begin = r->done, left = reference_total(r) - begin;
+    int64_t end = begin + (pixels < left ? pixels : left);
+#ifdef _OPENMP
+#pragma omp parallel for schedule(dynamic, 8) num_threads(scene_thread_count(threads))
+#else
+    (void)threads;
+#endif
+    for (int64_t i = begin; i < end; i++) {
+        reference_value value =
+            reference_pixel(r, (int32_t)(i % r->width), (int32_t)(i / r->width));
+        r->accessibility[i] = value.accessibility;
+        r->error[i] = value.error;
+    }
+    r->done = end;
+}
+
+const float *reference_accessibility(const reference *r)
+{
+    return r->accessibility;
+}
+
+const float *reference_error(const reference *r)
+{
+    return r->error;
+}

@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * reference.h: ambient occlusion by ray tracing, the truth that estimators are measured
+ * against.
+ *
+ * A = 1 - E[V W] over directions about the normal that are drawn with the weighting's own
+ * density, W the falloff at the nearest hit. Both sides of triangles block. The normal is
+ * that of the G-buffer: where an interpolated one leans off its facet, rays below the
+ * facet start under the surface and are blocked by it, so A is that of the triangles as
+ * they are.
+ */
+#ifndef CREVICE_SCENE_REFERENCE_H
+#define CREVICE_SCENE_REFERENCE_H
+
+#include "scene.h"
+
+#define REFERENCE_MAX_RAYS 65536
+
+typedef enum reference_definition {
+    REFERENCE_HEMISPHERE = 0,
+    /* The share of the tangent sphere's volume (radius R/2, centre P + n R/2) whose
+     * points are seen from P. Weighting and falloff do not matter. */
+    REFERENCE_TANGENT_SPHERE = 1
+} reference_definition;
+
+typedef enum reference_kind {
+    REFERENCE_FULL = 0, /* the whole scene occludes */
+    REFERENCE_VISIBLE =
+        1 /* only what the G-buffer's layers hold: see reference_sheets.c */
+} reference_kind;
+
+typedef struct reference_options {
+    reference_definition definition;
+    reference_kind kind;
+    crv_weighting weighting;
+    crv_falloff falloff;
+    float tau, u;    /* of the falloffs, as in crv_options */
+    float radius;    /* R, scene units, > 0 */
+    int32_t rays;    /* 1 to REFERENCE_MAX_RAYS, the most that a pixel gets */
+    float max_error; /* standard error from which a pixel is done; 0: take all rays */
+    scene_normals normals; /* full kind: as the G-buffer was made */
+    uint32_t seed;
+} reference_options;
+
+/* What is known of one pixel. */
+typedef struct reference_value {
+    float accessibility; /* background: 1 */
+    float error;         /* estimated standard error, 1/rays at least; background: 0 */
+    int32_t rays;
+} reference_value;
+
+typedef struct reference reference;
+
+/* Both s and g must outlive the reference. Errors: options out of range, no memory. */
+int reference_create(const scene *s, const scene_gbuffer *g, const reference_options *o,
+                     reference **out, const crv_logger *log);
+
+/* NULL does nothing. */
+void reference_free(reference *r);
+
+/* One pixel by its position inside the guard band, stored nowhere. Thread-safe. */
+reference_value reference_pixel(const reference *r, int32_t x, int32_t y);
+
+/* The pixels inside the guard band, row by row, and how many of them are done. */
+int64_t reference_total(const reference *r);
+int64_t reference_done(const reference *r);
+
+/* Computes so many more pixels with so many threads (0: OpenMP's choice). The result has
+ * the same bits for any number of threads and any parts. */
+void reference_advance(reference *r, int64_t pixels, int32_t threads);
+
+/* One float for each pixel inside the guard band, zero where it is not done. */
+const float *reference_accessibility(const reference *r);
+const float *reference_error(const reference *r);
+
+/*
+ * Checkpoints. reference_save() writes through a temporary file beside it and a rename,
+ * always the same number of bytes, so that one success promises room for the next.
+ * reference_load() refuses files that are damaged or of another scene, view or option.
+ */
+int reference_save(const reference *r, const char *path, const crv_logger *log);
+int reference_load(reference *r, const char *path, const crv_logger *log);
+
+#endif

@@ -1,0 +1,164 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * One point's accessibility. Its rays are split among several independently scrambled
+ * copies of a low-discrepancy sequence: each copy has the sequence's fast convergence,
+ * and the spread of their means is an honest estimate of the error, which one sequence
+ * alone cannot give.
+ */
+#include "reference_internal.h"
+#include "sampling.h"
+
+#define MAX_COPIES 16
+/* Fewer rays say too little of their own error to stop there. */
+#define FIRST_STOP 64
+
+typedef struct direction_frame {
+    vec3 x, y, z;
+} direction_frame;
+
+/* Duff and others 2017: stable for every unit vector. */
+static direction_frame frame_around(vec3 z)
+{
+    double sign = copysign(1.0, z.z), a = -1.0 / (sign + z.z), b = z.x * z.y * a;
+    return (direction_frame){v3(1.0 + sign * z.x * z.x * a, sign * b, -sign * z.x),
+                             v3(b, sign + z.y * z.y * a, -z.y), z};
+}
+
+/* The elevation's sine for a uniform number, by the density that is wanted. */
+static double elevation_sine(const reference_options *o, double u)
+{
+    if (o->definition == REFERENCE_TANGENT_SPHERE)
+        return sqrt(sqrt(u)); /* density c^3, the chord's share of the volume */
+    return o->weighting == CRV_WEIGHTING_COSINE ? sqrt(u) : u;
+}
+
+/* W for q = r / R in [0, 1]. */
+static double falloff_weight(const reference_options *o, double q)
+{
+    double u = (double)o->u;
+    switch (o->falloff) {
+    case CRV_FALLOFF_NONE:
+        return 1.0;
+    case CRV_FALLOFF_LINEAR:
+        return 1.0 - q;
+    case CRV_FALLOFF_SQRT:
+        return 1.0 - sqrt(q);
+    case CRV_FALLOFF_CUBIC:
+        return 1.0 - q * q * q;
+    case CRV_FALLOFF_EXPONENTIAL:
+        return exp(-(double)o->tau * q);
+    case CRV_FALLOFF_ALCHEMY:
+        return u * q / (fmax(u, q) * fmax(u, q));
+    }
+    return 1.0;
+}
+
+static struct RTCRay ray_along(vec3 origin, vec3 direction, double length)
+{
+    struct RTCRay ray = {0};
+    ray.org_x = (float)origin.x;
+    ray.org_y = (float)origin.y;
+    ray.org_z = (float)origin.z;
+    ray.dir_x = (float)direction.x;
+    ray.dir_y = (float)direction.y;
+    ray.dir_z = (float)direction.z;
+    ray.tfar = (float)length;
+    ray.mask = UINT32_MAX;
+    return ray;
+}
+
+/* Distance to the nearest hit as a share of `length`; 1 where there is none. */
+static double free_share(const reference *r, vec3 origin, vec3 direction, double length)
+{
+    struct RTCRayHit query = {0};
+    query.ray = ray_along(origin, direction, length);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    embree_intersect(r->occluders->rtc, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return 1.0;
+    return fmin(fmax((double)query.ray.tfar / length, 0.0), 1.0);
+}
+
+/* What one ray says of the accessibility, in [0, 1]. */
+static double trace_ray(const reference *r, const reference_point *point,
+                        const direction_frame *frame, sample_point sample)
+{
+    const reference_options *o = &r->options;
+    double sine = elevation_sine(o, sample.u), radius = (double)o->radius;
+    double cosine = sqrt(fmax(0.0, 1.0 - sine * sine)), angle = 2.0 * SCENE_PI * sample.v;
+    vec3 direction = v3_scale(frame->z, sine);
+    double share;
+    direction = v3_along(direction, frame->x, cosine * cos(angle));
+    direction = v3_along(direction, frame->y, cosine * sin(angle));
+    if (o->definition == REFERENCE_TANGENT_SPHERE) {
+        /* Along the chord volume grows with the cube of the distance. */
+        share = free_share(r, point->origin, direction, radius * sine);
+        return share * share * share;
+    }
+    if (o->falloff == CRV_FALLOFF_NONE) {
+        struct RTCRay ray = ray_along(point->origin, direction, radius);
+        return embree_occluded(r->occluders->rtc, &ray) ? 0.0 : 1.0;
+    }
+    share = free_share(r, point->origin, direction, radius);
+    return share < 1.0 ? 1.0 - falloff_weight(o, share) : 1.0;
+}
+
+/* A power of two, so that each copy gets whole blocks of its sequence. */
+static int32_t copy_count(int32_t rays)
+{
+    int32_t most = rays < 4 ? rays : rays < 32 ? 4 : rays / 8, copies = 1;
+    while (2 * copies <= most && 2 * copies <= MAX_COPIES)
+        copies *= 2;
+    return copies;
+}
+
+static int32_t rays_of_copy(int32_t rays, int32_t copies, int32_t copy)
+{
+    return rays / copies + (copy < rays % copies ? 1 : 0);
+}
+
+/* n rays that agree do not rule out something that fills less than 1/n: no error below
+ * that is claimed. */
+static reference_value summary(const double *sum, int32_t copies, int32_t rays)
+{
+    double mean = 0.0, spread = 0.0, error;
+    for (int32_t c = 0; c < copies; c++)
+        mean += sum[c] / (double)rays;
+    for (int32_t c = 0; c < copies; c++) {
+        double share = (double)rays_of_copy(rays, copies, c) / (double)rays;
+        double deviation = sum[c] / (double)rays - share * mean;
+        spread += deviation * deviation;
+    }
+    error = copies > 1 ? sqrt(spread * copies / (copies - 1)) : 0.5;
+    return (reference_value){.accessibility = (float)fmin(fmax(mean, 0.0), 1.0),
+                             .error = (float)fmin(fmax(error, 1.0 / rays), 0.5),
+                             .rays = rays};
+}
+
+reference_value reference_trace(const reference *r, const reference_point *point,
+                                uint64_t stream)
+{
+    const reference_options *o = &r->options;
+    direction_frame frame = frame_around(point->normal);
+    int32_t copies = copy_count(o->rays), traced = 0;
+    int32_t until = o->max_error > 0.0f && o->rays > FIRST_STOP ? FIRST_STOP : o->rays;
+    double sum[MAX_COPIES] = {0};
+    if (!r->occluders)
+        return (reference_value){.accessibility = 1.0f};
+    for (;;) {
+        reference_value value;
+        for (int32_t c = 0; c < copies; c++) {
+            uint64_t seed = sampling_mix(stream + (uint64_t)c);
+            int32_t last = rays_of_copy(until, copies, c);
+            for (int32_t i = rays_of_copy(traced, copies, c); i < last; i++)
+                sum[c] +=
+                    trace_ray(r, point, &frame, sampling_owen_sobol((uint32_t)i, seed));
+        }
+        traced = until;
+        value = summary(sum, copies, traced);
+        if (traced >= o->rays || value.error <= o->max_error)
+            return value;
+        until = traced > o->rays / 2 ? o->rays : 2 * traced;
+    }
+}
