@@ -3,7 +3,7 @@
 add_library(crevice_fixture STATIC fixture.c)
 target_link_libraries(crevice_fixture PRIVATE crevice_flags PUBLIC crevice::crevice PkgConfig::CMOCKA m)
 
-crevice_test(test_closed_forms SOURCES test_closed_forms.c LIBS crevice_fixture)
+crevice_test(test_closed_forms SOURCES test_closed_forms.c quadrature.c LIBS crevice_fixture)
 crevice_test(test_conformance SOURCES test_conformance.c LIBS crevice_fixture)
 crevice_test(test_gbuffer SOURCES test_gbuffer.c LIBS crevice_fixture)
 crevice_test(test_options SOURCES test_options.c LIBS crevice_fixture)

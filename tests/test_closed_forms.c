@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Estimators against integrals that are known in closed form. */
 #include "fixture.h"
+#include "quadrature.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -44,8 +45,30 @@ static double tangent_sphere(double c)
     return e * e * (3 * rho - e) / (4 * rho * rho * rho);
 }
 
+/* The share of the ball around the point that is behind the floor or the wall: one half,
+ * and half of the cap that the wall cuts off. */
+static double ball(double c)
+{
+    const double h = 1 - c;
+    return 0.5 + h * h * (3 - h) / 8;
+}
+
+/* alchemy and vo have no closed form here: their own sums, by quadrature. */
+static double alchemy_sum(double c)
+{
+    const quadrature_site site = {c * sqrt(0.5), 10, 1};
+    const quadrature_alchemy numbers = {1, 1e-4, 1e-4}; /* the defaults, radius 1 */
+    return 1 - quadrature_of_alchemy(&site, &numbers);
+}
+
+static double vo_sum(double c)
+{
+    const quadrature_site site = {c * sqrt(0.5), 10, 1};
+    return 1 - quadrature_of_vo(&site);
+}
+
 /* Rays that are marched may stop one step late. */
-static const double EXACT = 0.01, MARCHED = 0.02;
+static const double EXACT = 0.01, MARCHED = 0.02, SUM = 0.005;
 
 static const closed_form FORMS[] = {
     {"hbao", CRV_FALLOFF_NONE, uniform_none, EXACT},
@@ -57,6 +80,9 @@ static const closed_form FORMS[] = {
     {"containment", CRV_FALLOFF_NONE, cosine_none, EXACT},
     {"containment", CRV_FALLOFF_LINEAR, cosine_linear, EXACT},
     {"vao", CRV_FALLOFF_LINEAR, tangent_sphere, EXACT},
+    {"ssao", CRV_FALLOFF_LINEAR, ball, EXACT},
+    {"alchemy", CRV_FALLOFF_LINEAR, alchemy_sum, SUM},
+    {"vo", CRV_FALLOFF_LINEAR, vo_sum, SUM},
 };
 
 enum { FORM_COUNT = sizeof FORMS / sizeof FORMS[0] };
