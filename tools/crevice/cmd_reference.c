@@ -134,9 +134,10 @@ static const arg_table *const tables[] = {
 static const char *const examples[] = {
     "what hsao, raymarch and containment should give",
     "crevice reference model.glb -o truth.exr --radius 0.5 --rays 1024",
-    "what hbao should give, to an error of 0.002; then the same again after an interrupt",
+    "what hbao should give, to an error of 0.002",
     "crevice reference model.glb -o truth.exr --radius 0.5 --weighting uniform "
     "--falloff linear --rays 65536 --max-error 0.002",
+    "go on with it after an interrupt",
     "crevice reference model.glb -o truth.exr --radius 0.5 --weighting uniform "
     "--falloff linear --rays 65536 --max-error 0.002 --resume",
     NULL,
