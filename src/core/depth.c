@@ -131,13 +131,13 @@ crv_status crv_gbuffer_set_depth(crv_gbuffer *g, int32_t layer, const crv_image 
     if (!g)
         return CRV_ERROR_INVALID_ARGUMENT;
     const crv_logger *logger = &g->context->logger;
-    if (!g->has_camera)
-        return crv__fail(logger, CRV_ERROR_NOT_READY,
-                         "depth: no camera yet; call crv_gbuffer_set_camera() first");
+    crv_status status = crv__gbuffer_need_camera(g, "depth");
+    if (status)
+        return status;
     if (layer < 0 || layer >= g->desc.layers)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT, "depth: layer %d of %d",
                          layer, g->desc.layers);
-    crv_status status =
+    status =
         crv__image_check(logger, "depth", image, g->desc.width, g->desc.height, 1, 0);
     if (status)
         return status;

@@ -138,12 +138,12 @@ static void take_normals_row(void *data, uint32_t row)
     }
 }
 
-static crv_status need_camera(const crv_gbuffer *g)
+crv_status crv__gbuffer_need_camera(const crv_gbuffer *g, const char *what)
 {
     if (g->has_camera)
         return CRV_OK;
     return crv__fail(&g->context->logger, CRV_ERROR_NOT_READY,
-                     "gbuffer: no camera yet; call crv_gbuffer_set_camera() first");
+                     "%s: no camera yet; call crv_gbuffer_set_camera() first", what);
 }
 
 crv_status crv_gbuffer_set_normals(crv_gbuffer *g, const crv_image *image,
@@ -152,7 +152,7 @@ crv_status crv_gbuffer_set_normals(crv_gbuffer *g, const crv_image *image,
     static const float IDENTITY[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     if (!g)
         return CRV_ERROR_INVALID_ARGUMENT;
-    crv_status status = need_camera(g);
+    crv_status status = crv__gbuffer_need_camera(g, "gbuffer");
     if (status)
         return status;
     if (image) {
@@ -198,7 +198,7 @@ static void finish_row(void *data, uint32_t row)
 
 crv_status crv__gbuffer_prepare(crv_gbuffer *g)
 {
-    crv_status status = need_camera(g);
+    crv_status status = crv__gbuffer_need_camera(g, "gbuffer");
     if (status)
         return status;
     const uint32_t missing = ((1u << g->desc.layers) - 1) & ~g->has_depth;

@@ -45,6 +45,9 @@ float crv__depth_map_apply(const crv__depth_map *map, int32_t x, int32_t y, floa
 crv_status crv__gbuffer_desc_check(const crv_logger *logger,
                                    const crv_gbuffer_desc *desc);
 
+/* NOT_READY with a line that begins with `what` where the G-buffer has no camera yet. */
+crv_status crv__gbuffer_need_camera(const crv_gbuffer *gbuffer, const char *what);
+
 /* NOT_READY with a line where camera or depth are missing; else makes normals[] ready. */
 crv_status crv__gbuffer_prepare(crv_gbuffer *gbuffer);
 

@@ -26,19 +26,11 @@ void crv__height_field_release(crv_gbuffer *g)
     crv__plane_destroy(&g->field.height, allocator);
 }
 
-static crv_status need_camera(const crv_gbuffer *g, const char *what)
-{
-    if (g->has_camera)
-        return CRV_OK;
-    return crv__fail(&g->context->logger, CRV_ERROR_NOT_READY,
-                     "%s: no camera yet; call crv_gbuffer_set_camera() first", what);
-}
-
 crv_status crv_gbuffer_set_implicit(crv_gbuffer *g, crv_implicit_fn function, void *user)
 {
     if (!g)
         return CRV_ERROR_INVALID_ARGUMENT;
-    crv_status status = need_camera(g, "implicit surface");
+    crv_status status = crv__gbuffer_need_camera(g, "implicit surface");
     if (status)
         return status;
     g->field.implicit = function;
@@ -115,7 +107,7 @@ crv_status crv_gbuffer_set_height_field(crv_gbuffer *g, const crv_height_field *
 {
     if (!g)
         return CRV_ERROR_INVALID_ARGUMENT;
-    crv_status status = need_camera(g, "height field");
+    crv_status status = crv__gbuffer_need_camera(g, "height field");
     if (status)
         return status;
     if (!field) {
