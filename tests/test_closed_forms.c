@@ -116,23 +116,16 @@ static groove make_groove(double c)
 /* How much work an estimate may do; a method reads what applies to it. */
 typedef struct effort {
     int32_t directions, steps, normal_rays, samples, seed;
+    float thickness; /* 0: the groove is solid without end */
 } effort;
 
-/* Accessibility of the groove's point, radius 1; everything but its pixel is guard band.
- */
-static double estimate(const groove *g, const char *method, crv_falloff falloff, effort e)
+/* Accessibility of the groove's point, radius 1, unfiltered; everything but its pixel is
+ * guard band. */
+static double of_groove(const groove *g, crv_options options)
 {
-    crv_options options = fixture_options(method);
     options.filter = NULL;
     options.radius = 1;
-    options.falloff = falloff;
-    options.directions = e.directions;
-    options.steps = e.steps;
-    options.normal_rays = e.normal_rays;
-    options.samples = e.samples;
-    options.bias_deg = 0;
     options.noise_size = 1;
-    options.seed = e.seed;
     const fixture_run run = {.threads = 1,
                              .guard_left = g->reach_px,
                              .guard_top = g->reach_px,
@@ -144,11 +137,24 @@ static double estimate(const groove *g, const char *method, crv_falloff falloff,
     return a;
 }
 
+static double estimate(const groove *g, const char *method, crv_falloff falloff, effort e)
+{
+    crv_options options = fixture_options(method);
+    options.falloff = falloff;
+    options.directions = e.directions;
+    options.steps = e.steps;
+    options.normal_rays = e.normal_rays;
+    options.samples = e.samples;
+    options.seed = e.seed;
+    options.thickness = e.thickness;
+    return of_groove(g, options);
+}
+
 static void converged_methods_meet_the_groove(void **state)
 {
     (void)state;
     static const double C[] = {0.1, 0.25, 0.5, 0.75, 1};
-    static const effort MUCH = {128, 128, 16, 4096, 0};
+    static const effort MUCH = {128, 128, 16, 4096, 0, 0.5f};
     for (int k = 0; k < 5; k++) {
         groove g = make_groove(C[k]);
         for (int i = 0; i < FORM_COUNT; i++) {
@@ -218,19 +224,23 @@ static void error_falls_with_samples(void **state)
     static const refinement REFINEMENTS[] = {
         /* Equally spaced directions of a smooth integrand converge faster than 1/Nd, down
          * to the floor that steps and texels set. */
-        {"directions", {4, 256, 8, 1, 0}, 2, 4},
-        /* Jittered equal steps err by O(1/Ns), a sixteenth; a horizon is found late where
+        {"directions", {4, 256, 8, 1, 0, 0}, 2, 4},
+        /* Jittered steps err by O(1/Ns), a sixteenth; a horizon is found late where
          * the wall is nearer than one coarse step, so less is asked. */
-        {"steps", {128, 4, 8, 1, 0}, 2, 5},
+        {"steps", {128, 4, 8, 1, 0, 0}, 2, 5},
         /* Poisson-disk and low-discrepancy points do better than the 1/sqrt(n) of random
          * ones, which is a sixteenth. */
-        {"samples", {1, 1, 1, 4, 0}, 4, 16},
+        {"samples", {1, 1, 1, 4, 0, 0}, 4, 16},
     };
     groove grooves[4] = {make_groove(0.1), make_groove(0.25), make_groove(0.5),
                          make_groove(0.75)};
     for (int i = 0; i < FORM_COUNT * 3; i++) {
         const closed_form *form = &FORMS[i / 3];
         const refinement *r = &REFINEMENTS[i % 3];
+        /* A ray meets the groove once, so that containment knows all of it from one point
+         * and its steps find nothing more. */
+        if (strcmp(r->option, "steps") == 0 && strcmp(form->method, "containment") == 0)
+            continue;
         if (crv_option_applies(crv_option_find(r->option), crv_method_find(form->method),
                                NULL))
             refine(grooves, form, r);

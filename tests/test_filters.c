@@ -7,9 +7,10 @@
 
 enum { SIZE = 33, COUNT = SIZE * SIZE, MIDDLE = SIZE / 2 * SIZE + SIZE / 2 };
 
-/* Filters an image over these depths; perspective unless flat. */
-static void apply(const char *filter, int32_t slope, const float *depth, const float *in,
-                  float *out)
+/* Filters an image over these depths, and normals unless NULL. */
+static void apply_with(const char *filter, int32_t slope, float normal_deg,
+                       const float *depth, const float *normals, const float *in,
+                       float *out)
 {
     crv_context_desc context_desc;
     crv_context_desc_init(&context_desc, sizeof context_desc);
@@ -21,6 +22,7 @@ static void apply(const char *filter, int32_t slope, const float *depth, const f
     options.radius = 2;
     options.filter_depth = 0.25f; /* 0.5 scene units */
     options.filter_slope = slope;
+    options.filter_normal = normal_deg;
     crv_camera camera = crv_camera_perspective(SIZE, SIZE, 1);
     crv_image depths = crv_image_packed((float *)(uintptr_t)depth, SIZE, SIZE, 1);
     crv_image input = crv_image_packed((float *)(uintptr_t)in, SIZE, SIZE, 1);
@@ -33,10 +35,20 @@ static void apply(const char *filter, int32_t slope, const float *depth, const f
     assert_int_equal(crv_plan_create(context, &options, &desc, &plan), CRV_OK);
     assert_int_equal(crv_gbuffer_set_camera(gbuffer, &camera), CRV_OK);
     assert_int_equal(crv_gbuffer_set_depth(gbuffer, 0, &depths, NULL), CRV_OK);
+    if (normals) {
+        crv_image n = crv_image_packed((float *)(uintptr_t)normals, SIZE, SIZE, 3);
+        assert_int_equal(crv_gbuffer_set_normals(gbuffer, &n, CRV_NORMAL_VIEW), CRV_OK);
+    }
     assert_int_equal(crv_plan_filter(plan, gbuffer, &input, &result), CRV_OK);
     crv_plan_destroy(plan);
     crv_gbuffer_destroy(gbuffer);
     crv_context_destroy(context);
+}
+
+static void apply(const char *filter, int32_t slope, const float *depth, const float *in,
+                  float *out)
+{
+    apply_with(filter, slope, 25, depth, NULL, in, out);
 }
 
 static void fill(float *image, float value)
@@ -154,6 +166,32 @@ static void non_finite_values_count_as_open(void **state)
         assert_true(out[i] == 1);
 }
 
+/* Two faces that meet at the same depth; their normals are 40 degrees apart. */
+static void faces_that_meet_are_kept_apart(void **state)
+{
+    (void)state;
+    static float depth[COUNT], normals[3 * COUNT], in[COUNT], apart[COUNT], joined[COUNT];
+    fill(depth, 5);
+    for (int32_t i = 0; i < COUNT; i++) {
+        const int right = i % SIZE >= SIZE / 2;
+        const double angle = right ? 40 * 3.14159265358979 / 180 : 0;
+        const float n[3] = {(float)sin(angle), 0, (float)cos(angle)};
+        memcpy(normals + (ptrdiff_t)3 * i, n, sizeof n);
+        in[i] = right ? 1 : 0.25f;
+    }
+    for (int32_t f = 0; f < crv_filter_count(); f++) {
+        const char *name = crv_filter_at(f)->name;
+        apply_with(name, 1, 39, depth, normals, in, apart);
+        apply_with(name, 1, 180, depth, normals, in, joined);
+        for (int32_t i = 0; i < COUNT; i++)
+            assert_true(fabsf(apart[i] - in[i]) < 1e-6f);
+        assert_true(joined[MIDDLE] < 0.9f);
+        /* Past the angle the other face begins to count, but less than its own. */
+        apply_with(name, 1, 60, depth, normals, in, apart);
+        assert_true(apart[MIDDLE] < 0.999f && apart[MIDDLE] >= joined[MIDDLE]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -161,6 +199,7 @@ int main(void)
         cmocka_unit_test(edges_are_kept),
         cmocka_unit_test(background_is_no_tap),
         cmocka_unit_test(slopes_are_followed),
+        cmocka_unit_test(faces_that_meet_are_kept_apart),
         cmocka_unit_test(non_finite_values_count_as_open),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

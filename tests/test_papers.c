@@ -77,6 +77,8 @@ static crv_options few_samples(const char *method, int32_t samples)
     options.filter = NULL;
     options.radius = 1;
     options.samples = samples;
+    options.steps = 1;     /* of containment: the paper's estimator, */
+    options.thickness = 0; /* and its depth buffer */
     return options;
 }
 

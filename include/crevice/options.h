@@ -44,6 +44,13 @@ typedef enum crv_attenuation {
     CRV_ATTENUATION_HORIZON = 1
 } crv_attenuation;
 
+/* How the samples of a direction are spaced over the radius. */
+typedef enum crv_spacing {
+    CRV_SPACING_EQUAL = 0, /* equal steps, as in the papers */
+    /* With the square of the step: dense near the point, where most occlusion begins. */
+    CRV_SPACING_QUADRATIC = 1
+} crv_spacing;
+
 /* What vao divides the open length of its pipes by. */
 typedef enum crv_normaliser {
     /* The length of the chords: weighted importance sampling. */
@@ -117,13 +124,18 @@ typedef struct crv_options {
     float tau; /* exponential falloff: decay over one radius */
     float u;   /* alchemy falloff: where it peaks, in radii */
 
-    int32_t directions; /* Nd */
-    int32_t steps;      /* Ns, per direction */
+    int32_t directions;  /* Nd */
+    int32_t steps;       /* Ns, per direction; containment: points tested on a ray */
+    crv_spacing spacing; /* hbao: of its steps */
     /* Raises hbao's tangent: occluders that rise less over the surface are ignored. */
     float bias_deg;
     crv_attenuation attenuation;
     int32_t normal_rays;    /* Nn, per direction */
     int32_t growing_sphere; /* hsao deflects only towards what is nearer than the step */
+    /* How far behind its front a surface counts as solid where no layer tells its back,
+     * in radii, along the view axis; 0: without end. Things that are seen from in front
+     * are rarely as thick as what they hide. */
+    float thickness;
     /* hbao samples the projected radius no farther than this; 0: no cap. */
     float max_radius_px;
 
@@ -146,6 +158,9 @@ typedef struct crv_options {
     /* Measure that deviation from the surface's slope; 0: from the centre's depth, as the
      * papers do. */
     int32_t filter_slope;
+    /* Angle between normals, degrees, at which a filter tap stops counting; 180: taps
+     * count whatever their normal. */
+    float filter_normal;
 } crv_options;
 
 /* Sets every option to its default for the named method (NULL: hbao). Pass sizeof

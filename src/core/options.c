@@ -12,6 +12,7 @@ static const char *const FALLOFFS[] = {"none",        "linear",  "sqrt", "cubic"
                                        "exponential", "alchemy", NULL};
 static const char *const NORMALISERS[] = {"weighted", "analytic", NULL};
 static const char *const CHARACTERISTICS[] = {"product", "depth", "field", NULL};
+static const char *const SPACINGS[] = {"equal", "quadratic", NULL};
 static const char *const ATTENUATIONS[] = {"slab", "horizon", NULL};
 
 /* Who reads an option. */
@@ -56,8 +57,12 @@ static const row TABLE[] = {
     FLOAT(u, "radius", 0.1, 1e-3, 1, SOME_METHODS,
           "distance at which the alchemy falloff peaks"),
     INT(directions, "", 8, 1, 256, SOME_METHODS, "Nd: directions around a pixel"),
-    INT(steps, "", 8, 1, 256, SOME_METHODS, "Ns: samples in each direction"),
-    FLOAT(bias_deg, "degrees", 2, 0, 89, SOME_METHODS,
+    INT(steps, "", 8, 1, 256, SOME_METHODS,
+        "Ns: samples in each direction; containment: points tested on the way of each"),
+    CHOICE(spacing, CRV_SPACING_QUADRATIC, SPACINGS, SOME_METHODS,
+           "of the steps over the radius: equal, as in the papers, or quadratic, denser "
+           "near the point"),
+    FLOAT(bias_deg, "degrees", 0, 0, 89, SOME_METHODS,
           "ignores occluders that rise less than this over the surface"),
     CHOICE(attenuation, CRV_ATTENUATION_SLAB, ATTENUATIONS, SOME_METHODS,
            "slab: each occluder weighs the elevations that it is first to block; "
@@ -68,8 +73,10 @@ static const row TABLE[] = {
         "direction"),
     BOOL(growing_sphere, 0, SOME_METHODS,
          "deflect only towards occluders that are nearer than the step has come"),
+    FLOAT(thickness, "radius", 0.5, 0, 1e3, SOME_METHODS,
+          "how far behind its front a surface is solid; 0: without end"),
     INT(samples, "", 12, 1, 4096, SOME_METHODS,
-        "n: points, lines or pipes; containment begins with 32, ssao with 16"),
+        "n: points, lines or pipes; containment begins with 24, ssao with 16"),
     INT(bands, "", 1, 1, 16, SOME_METHODS,
         "levels of detail: small projected radii take 1/bands of the samples, and so on"),
     FLOAT(band_px, "px", 96, 1, CRV_MAX_SIZE, SOME_METHODS,
@@ -99,6 +106,8 @@ static const row TABLE[] = {
           "depth deviation at which a filter tap stops counting"),
     BOOL(filter_slope, 1, SOME_FILTERS,
          "measure that deviation from the surface's slope; off: from the centre's depth"),
+    FLOAT(filter_normal, "degrees", 25, 1, 180, SOME_FILTERS,
+          "angle between normals at which a filter tap stops counting; 180: no limit"),
 };
 
 enum { ROW_COUNT = sizeof TABLE / sizeof TABLE[0] };

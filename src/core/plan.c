@@ -76,6 +76,11 @@ static void fill_params(crv_plan *plan)
     p->rescale = o->rescale;
     p->filter_depth = o->filter_depth * o->radius;
     p->filter_slope = o->filter_slope;
+    p->filter_normal = o->filter_normal < 180
+                           ? (float)(1 / (1 - cos((double)o->filter_normal * PI / 180)))
+                           : 0;
+    p->spacing = (int32_t)o->spacing;
+    p->thickness = o->thickness > 0 ? o->thickness * o->radius : INFINITY;
 }
 
 /* Directions, noise and the method's own points; 0, or -1 where memory is out. */
@@ -128,6 +133,22 @@ static int create_planes(crv_plan *plan)
     return crv__plane_create(&plan->spare, allocator, x0, y0, x1 - x0, y1 - y0);
 }
 
+/* Methods that ask what is inside see nothing of a further surface unless they know or
+ * assume where the one before it ends. */
+static void warn_of_layers(const crv_logger *logger, const crv_options *options,
+                           const crv_gbuffer_desc *desc)
+{
+    const int bounded =
+        options->thickness > 0
+        && crv_option_applies(crv_option_find("thickness"), options->method, NULL);
+    if (crv__method_of(options->method)->volumetric && !bounded && desc->layers > 1
+        && desc->layer_kind == CRV_LAYERS_SURFACES)
+        crv__log(logger, CRV_LOG_WARNING,
+                 "layers: %s uses further layers only as pairs of front and back "
+                 "(CRV_LAYERS_SOLID); it sees the first",
+                 options->method->name);
+}
+
 crv_status crv_plan_create(crv_context *context, const crv_options *options,
                            const crv_gbuffer_desc *desc, crv_plan **out)
 {
@@ -141,12 +162,7 @@ crv_status crv_plan_create(crv_context *context, const crv_options *options,
         status = crv__gbuffer_desc_check(logger, desc);
     if (status)
         return status;
-    if (crv__method_of(options->method)->volumetric && desc->layers > 1
-        && desc->layer_kind == CRV_LAYERS_SURFACES)
-        crv__log(logger, CRV_LOG_WARNING,
-                 "layers: %s uses further layers only as pairs of front and back "
-                 "(CRV_LAYERS_SOLID); it sees the first",
-                 options->method->name);
+    warn_of_layers(logger, options, desc);
     crv_plan *plan = crv__allocate(&context->allocator, 1, sizeof *plan);
     if (plan) {
         plan->context = context;

@@ -24,18 +24,19 @@ static float filter(const crv__frame *f, const crv__plane *input, int32_t pass, 
     const int32_t step_x = pass == 0, step_y = pass == 1;
     float sum = 0, weights = 0;
     for (int32_t k = -REACH; k <= REACH; k++) {
-        float value, deviation;
-        if (!crv__tap(f, input, &centre, k * step_x, k * step_y, &value, &deviation)
-            || deviation >= 1)
+        crv__tap tap;
+        if (!crv__tap_at(f, input, &centre, k * step_x, k * step_y, &tap)
+            || tap.deviation >= 1)
             continue;
-        const float weight = GAUSS[k < 0 ? -k : k] * (1 - deviation);
-        sum += weight * value;
+        const float weight = GAUSS[k < 0 ? -k : k] * (1 - tap.deviation) * tap.likeness;
+        sum += weight * tap.value;
         weights += weight;
     }
     return sum / weights; /* the centre weighs 1 */
 }
 
-static const char *const OPTIONS[] = {"filter_depth", "filter_slope", NULL};
+static const char *const OPTIONS[] = {"filter_depth", "filter_slope", "filter_normal",
+                                      NULL};
 
 const crv__filter crv__filter_bilateral13 = {
     .info = {.name = "bilateral13",

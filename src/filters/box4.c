@@ -18,17 +18,18 @@ static float filter(const crv__frame *f, const crv__plane *input, int32_t pass, 
     (void)pass;
     for (int32_t dy = FIRST; dy <= LAST; dy++) {
         for (int32_t dx = FIRST; dx <= LAST; dx++) {
-            float value, deviation;
-            if (!crv__tap(f, input, &centre, dx, dy, &value, &deviation) || deviation > 1)
+            crv__tap tap;
+            if (!crv__tap_at(f, input, &centre, dx, dy, &tap) || tap.deviation > 1)
                 continue;
-            sum += value;
+            sum += tap.value;
             count += 1;
         }
     }
     return sum / count; /* the centre is always in */
 }
 
-static const char *const OPTIONS[] = {"filter_depth", "filter_slope", NULL};
+static const char *const OPTIONS[] = {"filter_depth", "filter_slope", "filter_normal",
+                                      NULL};
 
 const crv__filter crv__filter_box4 = {
     .info =

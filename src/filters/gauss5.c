@@ -22,19 +22,20 @@ static float filter(const crv__frame *f, const crv__plane *input, int32_t pass, 
     (void)pass;
     for (int32_t dy = -REACH; dy <= REACH; dy++) {
         for (int32_t dx = -REACH; dx <= REACH; dx++) {
-            float value, deviation;
-            if (!crv__tap(f, input, &centre, dx, dy, &value, &deviation))
+            crv__tap tap;
+            if (!crv__tap_at(f, input, &centre, dx, dy, &tap))
                 continue;
             const float weight = BINOMIAL[dx < 0 ? -dx : dx] * BINOMIAL[dy < 0 ? -dy : dy]
-                                 / (deviation + 0.125f);
-            sum += weight * value;
+                                 * tap.likeness / (tap.deviation + 0.125f);
+            sum += weight * tap.value;
             weights += weight;
         }
     }
     return sum / weights; /* the centre weighs 36 * 8 */
 }
 
-static const char *const OPTIONS[] = {"filter_depth", "filter_slope", NULL};
+static const char *const OPTIONS[] = {"filter_depth", "filter_slope", "filter_normal",
+                                      NULL};
 
 const crv__filter crv__filter_gauss5 = {
     .info = {.name = "gauss5",

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What the filters share: which neighbours belong to the same surface. */
+/* What the filters share: which neighbours belong to the same surface. The papers tell by
+ * depth alone; here the normals have a say as well (filter_normal), because accessibility
+ * changes with the normal at every edge between faces that touch. */
 #ifndef CRV_FILTERS_TAP_H
 #define CRV_FILTERS_TAP_H
 
@@ -10,6 +12,7 @@
 typedef struct crv__centre {
     int32_t x, y;
     float depth, slope_x, slope_y;
+    crv__vec3 normal;
 } crv__centre;
 
 /* The smaller of the two one-sided differences: the one that does not cross an edge. 0 at
@@ -31,7 +34,10 @@ static inline float crv__slope(const crv__plane *depth, int32_t x, int32_t y,
 
 static inline crv__centre crv__centre_at(const crv__frame *f, int32_t x, int32_t y)
 {
-    crv__centre c = {x, y, *crv__plane_at(&f->depth[0], x, y), 0, 0};
+    crv__centre c = {.x = x,
+                     .y = y,
+                     .depth = *crv__plane_at(&f->depth[0], x, y),
+                     .normal = crv__normal_at(f, x, y)};
     if (f->params->filter_slope) {
         c.slope_x = crv__slope(&f->depth[0], x, y, 1, 0, c.depth);
         c.slope_y = crv__slope(&f->depth[0], x, y, 0, 1, c.depth);
@@ -39,25 +45,32 @@ static inline crv__centre crv__centre_at(const crv__frame *f, int32_t x, int32_t
     return c;
 }
 
+typedef struct crv__tap {
+    float value;
+    float deviation; /* of its depth from what the centre leads one to expect, in units of
+                        filter_depth */
+    float likeness;  /* of its normal to the centre's, 0 to 1 */
+} crv__tap;
+
 /*
- * The tap at (x + dx, y + dy): its value, and how far its depth is from what the centre
- * leads one to expect, in units of filter_depth. Returns 0 where there is no such tap:
- * outside the picture, or background.
+ * The tap at (x + dx, y + dy). Returns 0 where there is no such tap: outside the picture,
+ * background, or a surface turned by filter_normal or more.
  */
-static inline int crv__tap(const crv__frame *f, const crv__plane *input,
-                           const crv__centre *c, int32_t dx, int32_t dy, float *value,
-                           float *deviation)
+static inline int crv__tap_at(const crv__frame *f, const crv__plane *input,
+                              const crv__centre *c, int32_t dx, int32_t dy, crv__tap *tap)
 {
     const int32_t u = c->x + dx, v = c->y + dy;
     if (!crv__plane_holds(input, u, v))
         return 0;
     const float d = *crv__plane_at(&f->depth[0], u, v);
-    *value = *crv__plane_at(input, u, v);
-    if (!(d < INFINITY) || isnan(*value))
+    tap->value = *crv__plane_at(input, u, v);
+    if (!(d < INFINITY) || isnan(tap->value))
         return 0;
     const float expected = c->depth + (float)dx * c->slope_x + (float)dy * c->slope_y;
-    *deviation = fabsf(d - expected) / f->params->filter_depth;
-    return 1;
+    tap->deviation = fabsf(d - expected) / f->params->filter_depth;
+    const float turned = 1 - crv__dot(crv__normal_at(f, u, v), c->normal);
+    tap->likeness = fminf(1, 1 - turned * f->params->filter_normal);
+    return tap->likeness > 0;
 }
 
 #endif

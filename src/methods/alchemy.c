@@ -83,4 +83,5 @@ const crv__method crv__method_alchemy = {
     .accessibility = accessibility,
     .pattern_fill = pattern_fill,
     .presets = {"samples=6", "samples=12", "samples=32", "samples=128",
-                "samples=12 bands=3 intensity=2 alchemy_eps=4e-4 filter=bilateral13"}};
+                "samples=12 bands=3 intensity=2 alchemy_eps=4e-4 filter=bilateral13 "
+                "filter_slope=off filter_normal=180"}};

@@ -31,20 +31,20 @@ static inline crv__site crv__site_at(const crv__frame *f, int32_t x, int32_t y)
     return site;
 }
 
-/* Whether the depth buffer has q on the eye's side, or, where layers come in pairs,
- * between a back and the next front. Off the buffers is outside. */
-static inline int crv__outside_depth(const crv__frame *f, crv__vec3 q)
+/* Whether q is in front of the depth buffer's first surface or behind the back of every
+ * surface in front of it: the next layer where layers come in pairs, else `thickness`
+ * behind the front. Off the buffers is outside. */
+static inline int crv__outside_depth(const crv__frame *f, crv__vec3 q, float thickness)
 {
     const crv__params *p = f->params;
     int32_t u, v;
     if (!crv__texel_of(p, q, &u, &v))
         return 1;
-    for (int32_t layer = 0; layer < p->layers; layer += 2) {
-        if (!(-q.z > *crv__plane_at(&f->depth[layer], u, v)))
+    for (int32_t layer = 0; layer < p->layers; layer += 1 + p->layers_solid) {
+        const float d = *crv__plane_at(&f->depth[layer], u, v);
+        if (!(-q.z > d)) /* and in front of all further ones */
             return 1;
-        if (!p->layers_solid || layer + 1 >= p->layers)
-            return 0;
-        if (-q.z < *crv__plane_at(&f->depth[layer + 1], u, v))
+        if (-q.z < crv__back_of(f, layer, u, v, d, thickness))
             return 0;
     }
     return 1;
@@ -76,7 +76,7 @@ static inline int crv__outside(const crv__frame *f, const crv__site *site, crv__
         if (!(crv__field_value(f->field, &site->local, site->P, q, &gradient) >= 0))
             return 0;
     }
-    if (!p->use_depth || crv__outside_depth(f, q))
+    if (!p->use_depth || crv__outside_depth(f, q, p->thickness))
         return 1;
     int32_t u, v;
     return crv__texel_of(p, q, &u, &v) && crv__is_own_surface(f, site, u, v);

@@ -78,6 +78,8 @@ static float accessibility(const crv__frame *f, int32_t x, int32_t y)
         slice walk = {0, 0, 0};
         for (int32_t i = 0; i < p->steps; i++) {
             float t = ((float)i + 0.5f + 0.5f * noise->beta) / (float)p->steps;
+            if (p->spacing == CRV_SPACING_QUADRATIC)
+                t *= t;
             float sample_x = (float)x + 0.5f + t * step_x,
                   sample_y = (float)y + 0.5f + t * step_y;
             if (!(sample_x >= 0 && sample_x < (float)p->width && sample_y >= 0
@@ -100,9 +102,9 @@ static float accessibility(const crv__frame *f, int32_t x, int32_t y)
     return 1 - occlusion / (float)p->directions;
 }
 
-static const char *const OPTIONS[] = {"falloff",     "tau",           "u",
-                                      "directions",  "steps",         "bias_deg",
-                                      "attenuation", "max_radius_px", NULL};
+static const char *const OPTIONS[] = {
+    "falloff", "tau",      "u",           "directions",    "steps",
+    "spacing", "bias_deg", "attenuation", "max_radius_px", NULL};
 
 const crv__method crv__method_hbao = {
     .info =
@@ -115,4 +117,4 @@ const crv__method crv__method_hbao = {
     .accessibility = accessibility,
     .presets = {"directions=4 steps=4", "directions=8 steps=8", "directions=12 steps=12",
                 "directions=24 steps=24",
-                "directions=8 steps=8 falloff=linear filter=none"}};
+                "directions=8 steps=8 spacing=equal falloff=linear filter=none"}};

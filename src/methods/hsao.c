@@ -95,8 +95,9 @@ static float accessibility(const crv__frame *f, int32_t x, int32_t y)
 }
 
 static const char *const OPTIONS[] = {
-    "falloff",        "tau", "u", "directions", "steps", "normal_rays", "attenuation",
-    "growing_sphere", NULL};
+    "falloff",   "tau",         "u",           "directions",
+    "steps",     "normal_rays", "attenuation", "growing_sphere",
+    "thickness", NULL};
 
 const crv__method crv__method_hsao = {
     .info = {.name = "hsao",
@@ -108,4 +109,5 @@ const crv__method crv__method_hsao = {
     .presets = {
         "directions=5 steps=6 normal_rays=0", "directions=7 steps=12 normal_rays=1",
         "directions=12 steps=12 normal_rays=2", "directions=24 steps=24 normal_rays=4",
-        "directions=7 steps=12 normal_rays=1 falloff=linear filter=gauss5"}};
+        "directions=7 steps=12 normal_rays=1 falloff=linear thickness=0 "
+        "filter=gauss5 filter_slope=off filter_normal=180"}};

@@ -68,11 +68,20 @@ static inline int crv__texel_of(const crv__params *p, crv__vec3 Q, int32_t *u, i
     return 1;
 }
 
+/* The depth of the back of what has its front at depth d in this layer: where layers come
+ * in pairs, the next one's; else `thickness` behind the front. */
+static inline float crv__back_of(const crv__frame *f, int32_t layer, int32_t u, int32_t v,
+                                 float d, float thickness)
+{
+    return f->params->layers_solid && layer + 1 < f->params->layers
+               ? *crv__plane_at(&f->depth[layer + 1], u, v)
+               : d + thickness;
+}
+
 /*
  * Whether something blocks the point Q as seen from `origin`: a surface less than the
- * radius away from the origin with Q behind it and, where layers come in pairs, in front
- * of its back. *I is the surface point at Q's pixel, read at the texel's centre and never
- * interpolated.
+ * radius away from the origin with Q behind it, but not behind its back. *I is the
+ * surface point at Q's pixel, read at the texel's centre and never interpolated.
  */
 static inline int crv__blocked(const crv__frame *f, crv__vec3 origin, crv__vec3 Q,
                                crv__vec3 *I)
@@ -85,8 +94,7 @@ static inline int crv__blocked(const crv__frame *f, crv__vec3 origin, crv__vec3 
         const float d = *crv__plane_at(&f->depth[layer], u, v);
         if (!(-Q.z > d)) /* in front of it, or background */
             continue;
-        if (p->layers_solid && layer + 1 < p->layers
-            && !(-Q.z < *crv__plane_at(&f->depth[layer + 1], u, v)))
+        if (!(-Q.z < crv__back_of(f, layer, u, v, d, p->thickness)))
             continue;
         *I = crv__unproject(p, u, v, d);
         const crv__vec3 to = crv__sub(*I, origin);

@@ -32,8 +32,8 @@ static float accessibility(const crv__frame *f, int32_t x, int32_t y)
     return 1 - occlusion / (float)(p->directions * rays);
 }
 
-static const char *const OPTIONS[] = {"falloff", "tau",         "u", "directions",
-                                      "steps",   "normal_rays", NULL};
+static const char *const OPTIONS[] = {"falloff", "tau",         "u",         "directions",
+                                      "steps",   "normal_rays", "thickness", NULL};
 
 const crv__method crv__method_raymarch = {
     .info =
@@ -47,4 +47,4 @@ const crv__method crv__method_raymarch = {
     .presets = {
         "directions=4 steps=8 normal_rays=1", "directions=8 steps=8 normal_rays=4",
         "directions=12 steps=12 normal_rays=6", "directions=24 steps=24 normal_rays=8",
-        "directions=8 steps=8 normal_rays=4 falloff=linear filter=none"}};
+        "directions=8 steps=8 normal_rays=4 falloff=linear thickness=0 filter=none"}};

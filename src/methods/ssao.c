@@ -24,7 +24,7 @@ static float accessibility(const crv__frame *f, int32_t x, int32_t y)
         const float *point = f->pattern + 4 * i;
         const crv__vec2 turned = crv__turned(noise, point[0], point[1]);
         const crv__vec3 offset = {turned.x, turned.y, point[2]};
-        outside += crv__outside_depth(f, crv__add_scaled(P, offset, p->radius));
+        outside += crv__outside_depth(f, crv__add_scaled(P, offset, p->radius), INFINITY);
     }
     const float share = (float)outside / (float)p->samples;
     return p->rescale ? fminf(1, 2 * share) : share;
@@ -60,4 +60,4 @@ const crv__method crv__method_ssao = {
     .accessibility = accessibility,
     .pattern_fill = pattern_fill,
     .presets = {"samples=8", "samples=16", "samples=32", "samples=128",
-                "samples=8 filter=box4"}};
+                "samples=8 filter=box4 filter_slope=off filter_normal=180"}};

@@ -59,4 +59,4 @@ const crv__method crv__method_vao = {
     .accessibility = accessibility,
     .pattern_fill = pattern_fill,
     .presets = {"samples=6", "samples=12", "samples=32", "samples=128",
-                "samples=8 filter=box4"}};
+                "samples=8 filter=box4 filter_slope=off filter_normal=180"}};

@@ -89,4 +89,4 @@ const crv__method crv__method_vo = {
     .accessibility = accessibility,
     .pattern_fill = pattern_fill,
     .presets = {"samples=6", "samples=12", "samples=32", "samples=128",
-                "samples=12 filter=bilateral13"}};
+                "samples=12 filter=bilateral13 filter_slope=off filter_normal=180"}};

@@ -46,9 +46,14 @@ typedef struct crv__params {
     int32_t normaliser; /* crv_normaliser */
     int32_t rescale;
     int32_t use_depth, use_field; /* characteristic functions */
+
+    int32_t spacing;     /* crv_spacing */
+    float thickness;     /* scene units; INFINITY: no limit */
+    float filter_normal; /* 1 / (1 - cos of the angle); 0: no limit */
+    float unused;
 } crv__params;
 
-_Static_assert(sizeof(crv__params) == 40 * 4, "no padding, a multiple of 16 bytes");
+_Static_assert(sizeof(crv__params) == 44 * 4, "no padding, a multiple of 16 bytes");
 _Static_assert(offsetof(crv__params, falloff) == 12 * 4, "layout shared with GLSL");
 _Static_assert(offsetof(crv__params, use_field) == 39 * 4, "layout shared with GLSL");
 
