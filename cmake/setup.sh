@@ -25,6 +25,7 @@ python3     python3
 needs_checks='
 clang            clang
 clang-format     clang-format
+chromium         chromium
 llvm-symbolizer  llvm
 -                libclang-rt-dev
 -                libomp-dev

@@ -89,4 +89,15 @@ int io_write(const char *path, const io_image *image, const io_write_options *op
  * path is not a folder. For finding out before a long computation. */
 int io_check_writable(const char *path, const crv_logger *log);
 
+/* Writes `size` bytes under any name, in the way of io_write(): whole, or not at all. */
+int io_write_bytes(const char *path, const void *bytes, size_t size,
+                   const crv_logger *log);
+
+/*
+ * Makes the folder where it is missing, in a folder that is there, and finds out whether
+ * files can be made in it and whether the disk holds `room` more bytes, which are written
+ * and removed again. *made (NULL: not wanted) tells whether the folder is new.
+ */
+int io_make_folder(const char *path, size_t room, bool *made, const crv_logger *log);
+
 #endif

@@ -29,6 +29,8 @@ static int check_options(const reference_options *o, const crv_logger *log)
 {
     if (!in_range(o->radius, 1e-30f, 1e18f))
         return refuse(log, "has an impossible radius; give one above 0");
+    if (!in_range(o->thickness, 0.0f, 1e3f))
+        return refuse(log, "has an impossible thickness; give 0 to 1000 radii");
     if (o->rays < 1 || o->rays > REFERENCE_MAX_RAYS)
         return refuse(log, "has an impossible number of rays; give 1 to 65536");
     if (!in_range(o->max_error, 0.0f, 1.0f))
@@ -53,7 +55,9 @@ static bool allocate(reference *r)
     size_t count = (size_t)r->width * (size_t)r->height;
     r->accessibility = calloc(count, 2 * sizeof(float));
     r->error = r->accessibility ? r->accessibility + count : NULL;
-    return r->accessibility != NULL;
+    if (r->options.all_falloffs)
+        r->falloffs = calloc(count, REFERENCE_FALLOFFS * 2 * sizeof(float));
+    return r->accessibility && (r->falloffs || !r->options.all_falloffs);
 }
 
 int reference_create(const scene *s, const scene_gbuffer *g, const reference_options *o,
@@ -75,7 +79,8 @@ int reference_create(const scene *s, const scene_gbuffer *g, const reference_opt
         return refuse(log, "out of memory; make the picture smaller");
     }
     if (o->kind == REFERENCE_VISIBLE) {
-        if (reference_make_sheets(g, (double)o->radius, &r->sheets, log)) {
+        double thickness = o->thickness > 0.0f ? (double)o->thickness : 1.0;
+        if (reference_make_sheets(g, (double)o->radius, thickness, &r->sheets, log)) {
             reference_free(r);
             return -1;
         }
@@ -86,7 +91,6 @@ int reference_create(const scene *s, const scene_gbuffer *g, const reference_opt
                   "the radius %g is so small for this scene that rays begin %.2g of it "
                   "off the surface; leave out what makes the scene large",
                   (double)o->radius, (double)(r->offset / o->radius));
-    reference_take_fingerprint(r);
     *out = r;
     return 0;
 }
@@ -97,6 +101,7 @@ void reference_free(reference *r)
         return;
     scene_free(r->sheets);
     free(r->accessibility);
+    free(r->falloffs);
     free(r);
 }
 
@@ -144,7 +149,9 @@ static bool find_sheet_point(const reference *r, const pixel_ray *ray, size_t pi
     return true;
 }
 
-reference_value reference_pixel(const reference *r, int32_t x, int32_t y)
+static void estimate_pixel(const reference *r, int32_t x, int32_t y,
+                           const crv_falloff *falloffs, int32_t count,
+                           reference_value *out)
 {
     const crv_gbuffer_desc *d = &r->gbuffer->desc;
     int32_t column = x + d->guard_left, row = y + d->guard_top;
@@ -155,10 +162,18 @@ reference_value reference_pixel(const reference *r, int32_t x, int32_t y)
     bool found = r->options.kind == REFERENCE_VISIBLE
                      ? find_sheet_point(r, &ray, pixel, &point)
                      : find_point(r, &ray, &point);
-    if (!found)
-        return (reference_value){.accessibility = 1.0f};
-    return reference_trace(r, &point,
-                           sampling_mix(index ^ sampling_mix(r->options.seed)));
+    for (int32_t k = 0; k < count; k++)
+        out[k] = (reference_value){.accessibility = 1.0f};
+    if (found)
+        reference_trace(r, &point, sampling_mix(index ^ sampling_mix(r->options.seed)),
+                        falloffs, count, out);
+}
+
+reference_value reference_pixel(const reference *r, int32_t x, int32_t y)
+{
+    reference_value value;
+    estimate_pixel(r, x, y, &r->options.falloff, 1, &value);
+    return value;
 }
 
 int64_t reference_total(const reference *r)
@@ -171,6 +186,32 @@ int64_t reference_done(const reference *r)
     return r->done;
 }
 
+static size_t pixel_count(const reference *r)
+{
+    return (size_t)r->width * (size_t)r->height;
+}
+
+static void compute_pixel(reference *r, int64_t i)
+{
+    static const crv_falloff all[REFERENCE_FALLOFFS] = {
+        CRV_FALLOFF_NONE,  CRV_FALLOFF_LINEAR,      CRV_FALLOFF_SQRT,
+        CRV_FALLOFF_CUBIC, CRV_FALLOFF_EXPONENTIAL, CRV_FALLOFF_ALCHEMY};
+    reference_value values[REFERENCE_FALLOFFS], value;
+    int32_t x = (int32_t)(i % r->width), y = (int32_t)(i / r->width);
+    if (r->options.all_falloffs) {
+        estimate_pixel(r, x, y, all, REFERENCE_FALLOFFS, values);
+        for (size_t k = 0; k < REFERENCE_FALLOFFS; k++) {
+            r->falloffs[2 * k * pixel_count(r) + (size_t)i] = values[k].accessibility;
+            r->falloffs[(2 * k + 1) * pixel_count(r) + (size_t)i] = values[k].error;
+        }
+        value = values[r->options.falloff];
+    } else {
+        value = reference_pixel(r, x, y);
+    }
+    r->accessibility[i] = value.accessibility;
+    r->error[i] = value.error;
+}
+
 void reference_advance(reference *r, int64_t pixels, int32_t threads)
 {
     int64_t begin = r->done, left = reference_total(r) - begin;
@@ -180,12 +221,8 @@ void reference_advance(reference *r, int64_t pixels, int32_t threads)
 #else
     (void)threads;
 #endif
-    for (int64_t i = begin; i < end; i++) {
-        reference_value value =
-            reference_pixel(r, (int32_t)(i % r->width), (int32_t)(i / r->width));
-        r->accessibility[i] = value.accessibility;
-        r->error[i] = value.error;
-    }
+    for (int64_t i = begin; i < end; i++)
+        compute_pixel(r, i);
     r->done = end;
 }
 
@@ -197,4 +234,14 @@ const float *reference_accessibility(const reference *r)
 const float *reference_error(const reference *r)
 {
     return r->error;
+}
+
+const float *reference_falloff_accessibility(const reference *r, crv_falloff falloff)
+{
+    return r->falloffs + 2 * (size_t)falloff * pixel_count(r);
+}
+
+const float *reference_falloff_error(const reference *r, crv_falloff falloff)
+{
+    return r->falloffs + (2 * (size_t)falloff + 1) * pixel_count(r);
 }

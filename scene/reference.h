@@ -15,6 +15,7 @@
 #include "scene.h"
 
 #define REFERENCE_MAX_RAYS 65536
+#define REFERENCE_FALLOFFS 6 /* values of crv_falloff */
 
 typedef enum reference_definition {
     REFERENCE_HEMISPHERE = 0,
@@ -34,12 +35,18 @@ typedef struct reference_options {
     reference_kind kind;
     crv_weighting weighting;
     crv_falloff falloff;
-    float tau, u;    /* of the falloffs, as in crv_options */
-    float radius;    /* R, scene units, > 0 */
+    float tau, u; /* of the falloffs, as in crv_options */
+    float radius; /* R, scene units, > 0 */
+    /* Visible kind: how far behind its front a silhouette is closed, in radii; 0: one
+     * radius. crv_options has an assumption of the same name. */
+    float thickness;
     int32_t rays;    /* 1 to REFERENCE_MAX_RAYS, the most that a pixel gets */
     float max_error; /* standard error from which a pixel is done; 0: take all rays */
     scene_normals normals; /* full kind: as the G-buffer was made */
     uint32_t seed;
+    /* Compute every falloff of this weighting from the same rays, which costs little more
+     * than one; a pixel is done when all are. Such a reference has no checkpoint. */
+    bool all_falloffs;
 } reference_options;
 
 /* What is known of one pixel. */
@@ -73,12 +80,16 @@ void reference_advance(reference *r, int64_t pixels, int32_t threads);
 const float *reference_accessibility(const reference *r);
 const float *reference_error(const reference *r);
 
+/* The same of another falloff; only where all_falloffs was asked for. */
+const float *reference_falloff_accessibility(const reference *r, crv_falloff falloff);
+const float *reference_falloff_error(const reference *r, crv_falloff falloff);
+
 /*
  * Checkpoints. reference_save() writes through a temporary file beside it and a rename,
  * always the same number of bytes, so that one success promises room for the next.
  * reference_load() refuses files that are damaged or of another scene, view or option.
  */
-int reference_save(const reference *r, const char *path, const crv_logger *log);
+int reference_save(reference *r, const char *path, const crv_logger *log);
 int reference_load(reference *r, const char *path, const crv_logger *log);
 
 #endif

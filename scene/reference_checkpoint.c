@@ -50,13 +50,15 @@ static uint64_t hash_mesh(uint64_t hash, const mesh *m)
 }
 
 /* Member by member: structs have padding, whose bytes mean nothing. */
-void reference_take_fingerprint(reference *r)
+static uint64_t fingerprint_of(reference *r)
 {
+    if (r->fingerprint)
+        return r->fingerprint;
     const reference_options *o = &r->options;
     const crv_camera *c = &r->gbuffer->camera;
     const crv_gbuffer_desc *d = &r->gbuffer->desc;
     const scene_view *v = &r->gbuffer->view;
-    const float numbers[] = {o->tau,   o->u,     o->radius, o->max_error,
+    const float numbers[] = {o->tau,   o->u,     o->radius, o->thickness, o->max_error,
                              c->fx_px, c->fy_px, c->cx_px,  c->cy_px};
     const int64_t choices[] = {o->definition, o->kind,       o->weighting, o->falloff,
                                o->rays,       o->normals,    o->seed,      d->width,
@@ -70,7 +72,9 @@ void reference_take_fingerprint(reference *r)
         hash = hash_int(hash, choices[i]);
     hash = reference_hash(hash, v->eye, sizeof v->eye);
     hash = reference_hash(hash, v->target, sizeof v->target);
-    r->fingerprint = reference_hash(hash, v->up, sizeof v->up);
+    hash = reference_hash(hash, v->up, sizeof v->up);
+    r->fingerprint = hash ? hash : 1;
+    return r->fingerprint;
 }
 
 static size_t value_bytes(const reference *r)
@@ -84,14 +88,14 @@ static uint64_t checksum(const checkpoint_header *header, const void *values, si
                           size);
 }
 
-static bool write_all(const reference *r, FILE *file)
+static bool write_all(reference *r, FILE *file)
 {
     checkpoint_header header;
     size_t size = value_bytes(r);
     uint64_t sum;
     memset(&header, 0, sizeof header);
     memcpy(header.format, FORMAT, sizeof FORMAT);
-    header.fingerprint = r->fingerprint;
+    header.fingerprint = fingerprint_of(r);
     header.total = reference_total(r);
     header.done = r->done;
     sum = checksum(&header, r->accessibility, size);
@@ -125,13 +129,26 @@ static FILE *open_new(const char *path)
     return file;
 }
 
-int reference_save(const reference *r, const char *path, const crv_logger *log)
+static int refuse(const crv_logger *log, const char *path, const char *text)
+{
+    scene_log(log, CRV_LOG_ERROR, path, "%s", text);
+    return -1;
+}
+
+static const char no_checkpoint[] =
+    "a reference of all falloffs has no checkpoint; make one of each";
+
+int reference_save(reference *r, const char *path, const crv_logger *log)
 {
     size_t length = strlen(path);
     char *temporary = malloc(length + sizeof ".tmp");
     FILE *file;
     bool written;
     int reason;
+    if (r->falloffs) {
+        free(temporary);
+        return refuse(log, path, no_checkpoint);
+    }
     if (!temporary)
         return fail(log, path, ENOMEM);
     memcpy(temporary, path, length);
@@ -153,15 +170,9 @@ int reference_save(const reference *r, const char *path, const crv_logger *log)
     return written ? 0 : fail(log, path, reason);
 }
 
-static int refuse(const crv_logger *log, const char *path, const char *text)
-{
-    scene_log(log, CRV_LOG_ERROR, path, "%s", text);
-    return -1;
-}
-
 /* values: as many bytes as the reference holds. */
-static int read_all(const reference *r, FILE *file, const char *path,
-                    checkpoint_header *header, float *values, const crv_logger *log)
+static int read_all(reference *r, FILE *file, const char *path, checkpoint_header *header,
+                    float *values, const crv_logger *log)
 {
     static const char damaged[] =
         "is damaged or no checkpoint; delete it and begin anew, without --resume";
@@ -169,7 +180,7 @@ static int read_all(const reference *r, FILE *file, const char *path,
     if (fread(header, sizeof *header, 1, file) != 1
         || memcmp(header->format, FORMAT, sizeof FORMAT) != 0)
         return refuse(log, path, damaged);
-    if (header->fingerprint != r->fingerprint || header->total != reference_total(r))
+    if (header->fingerprint != fingerprint_of(r) || header->total != reference_total(r))
         return refuse(log, path,
                       "is of another scene, view or setting; give the same ones again, "
                       "or delete it and begin anew, without --resume");
@@ -187,7 +198,9 @@ int reference_load(reference *r, const char *path, const crv_logger *log)
     float *values = malloc(value_bytes(r));
     checkpoint_header header;
     int result = -1;
-    if (!file)
+    if (r->falloffs)
+        refuse(log, path, no_checkpoint);
+    else if (!file)
         refuse(log, path, "cannot be read; begin anew, without --resume");
     else if (!values)
         refuse(log, path, "no memory to read it; close other programs");

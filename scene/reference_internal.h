@@ -18,9 +18,11 @@ struct reference {
     reference_options options;
     int32_t width, height; /* inside the guard band */
     float offset;          /* how far rays begin off the surface, at least */
-    uint64_t fingerprint;  /* of all that the result depends on */
+    uint64_t fingerprint;  /* of all that the result depends on; 0 until a checkpoint
+                              wants it, since large meshes take a while */
     int64_t done;
     float *accessibility, *error; /* one block: accessibility first */
+    float *falloffs; /* of all falloffs, in order: accessibility, error; or NULL */
 };
 
 /* Where rays begin, and the axis of their hemisphere, world space. */
@@ -28,15 +30,12 @@ typedef struct reference_point {
     vec3 origin, normal;
 } reference_point;
 
-/* Estimates one point with the random numbers of this stream. */
-reference_value reference_trace(const reference *r, const reference_point *point,
-                                uint64_t stream);
+/* Estimates one point with the random numbers of this stream, for these falloffs. */
+void reference_trace(const reference *r, const reference_point *point, uint64_t stream,
+                     const crv_falloff *falloffs, int32_t count, reference_value *out);
 
 /* FNV-1a, to be begun with REFERENCE_HASH. */
 #define REFERENCE_HASH 0xcbf29ce484222325u
 uint64_t reference_hash(uint64_t hash, const void *data, size_t size);
-
-/* Sets r->fingerprint. */
-void reference_take_fingerprint(reference *r);
 
 #endif

@@ -8,7 +8,8 @@
  * - Elsewhere every pixel fills its own quarter of the four, continued along its surface,
  *   so that nothing vanishes: neither blades a pixel wide nor the rim of a silhouette.
  * - A curtain closes a silhouette backwards, along the viewing rays: to the surface that
- *   is seen beside it, to the next layer in the same pixel, and by the radius at most.
+ *   is seen beside it, to the next layer in the same pixel, and by the thickness
+ *   at most.
  *   Estimators, too, take what is behind a surface to be filled; without the curtain
  *   light would enter between a box and the floor on which it stands. Only fronts have
  *   curtains: layer 0, and with solids every other layer.
@@ -28,9 +29,9 @@ typedef struct sheet {
     const float *depth, *next; /* of this layer and the one behind it, or NULL */
     const scene_axes *axes;
     mesh *mesh;
-    uint32_t *vertex;     /* of each pixel */
-    unsigned char *joins; /* of each pixel: bit 0 to the right, bit 1 downwards */
-    double radius;
+    uint32_t *vertex;         /* of each pixel */
+    unsigned char *joins;     /* of each pixel: bit 0 to the right, bit 1 downwards */
+    double radius, thickness; /* scene units */
     bool ortho, has_curtains;
 } sheet;
 
@@ -164,7 +165,7 @@ static quarter quarter_of(const sheet *s, int32_t x, int32_t y, int32_t dx, int3
  * `other`, 0: nothing. */
 static double curtain_depth(const sheet *s, const quarter *q, double front, double other)
 {
-    double back = front + s->radius;
+    double back = front + s->thickness;
     double next = s->next ? (double)s->next[index_of(s, q->x, q->y)] : 0.0;
     if (next > 0.0 && isfinite(next))
         back = fmin(back, next);
@@ -254,8 +255,8 @@ static void add_sheet(sheet *s)
             add_block(s, x, y);
 }
 
-int reference_make_sheets(const scene_gbuffer *g, double radius, scene **out,
-                          const crv_logger *log)
+int reference_make_sheets(const scene_gbuffer *g, double radius, double thickness,
+                          scene **out, const crv_logger *log)
 {
     size_t pixels = (size_t)g->desc.width * (size_t)g->desc.height;
     bool solids = g->desc.layer_kind == CRV_LAYERS_SOLID;
@@ -265,6 +266,7 @@ int reference_make_sheets(const scene_gbuffer *g, double radius, scene **out,
                .axes = &axes,
                .mesh = &m,
                .radius = radius,
+               .thickness = thickness * radius,
                .ortho = g->camera.projection == CRV_ORTHOGRAPHIC};
     s.vertex = malloc(pixels * sizeof *s.vertex);
     s.joins = malloc(pixels);

@@ -7,9 +7,10 @@
 
 #include "internal.h"
 
-/* Makes a scene of the G-buffer's layers; NULL where they are empty. radius: how deep
- * what is seen reaches behind its silhouette, where no layer says more. */
-int reference_make_sheets(const scene_gbuffer *g, double radius, scene **out,
-                          const crv_logger *log);
+/* Makes a scene of the G-buffer's layers; NULL where they are empty. thickness:
+ * how deep, in radii, what is seen reaches behind its silhouette, where no layer says
+ * more. */
+int reference_make_sheets(const scene_gbuffer *g, double radius, double thickness,
+                          scene **out, const crv_logger *log);
 
 #endif

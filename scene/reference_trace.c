@@ -33,10 +33,10 @@ static double elevation_sine(const reference_options *o, double u)
 }
 
 /* W for q = r / R in [0, 1]. */
-static double falloff_weight(const reference_options *o, double q)
+static double falloff_weight(const reference_options *o, crv_falloff falloff, double q)
 {
     double u = (double)o->u;
-    switch (o->falloff) {
+    switch (falloff) {
     case CRV_FALLOFF_NONE:
         return 1.0;
     case CRV_FALLOFF_LINEAR:
@@ -80,9 +80,16 @@ static double free_share(const reference *r, vec3 origin, vec3 direction, double
     return fmin(fmax((double)query.ray.tfar / length, 0.0), 1.0);
 }
 
-/* What one ray says of the accessibility, in [0, 1]. */
-static double trace_ray(const reference *r, const reference_point *point,
-                        const direction_frame *frame, sample_point sample)
+/* The falloffs that one set of rays is traced for. */
+typedef struct falloff_list {
+    const crv_falloff *kinds;
+    int32_t count;
+} falloff_list;
+
+/* What one ray says of the accessibility, in [0, 1], under each of the falloffs. */
+static void trace_ray(const reference *r, const reference_point *point,
+                      const direction_frame *frame, sample_point sample,
+                      falloff_list falloffs, double *out)
 {
     const reference_options *o = &r->options;
     double sine = elevation_sine(o, sample.u), radius = (double)o->radius;
@@ -94,14 +101,18 @@ static double trace_ray(const reference *r, const reference_point *point,
     if (o->definition == REFERENCE_TANGENT_SPHERE) {
         /* Along the chord volume grows with the cube of the distance. */
         share = free_share(r, point->origin, direction, radius * sine);
-        return share * share * share;
+        for (int32_t k = 0; k < falloffs.count; k++)
+            out[k] = share * share * share;
+        return;
     }
-    if (o->falloff == CRV_FALLOFF_NONE) {
+    if (falloffs.count == 1 && falloffs.kinds[0] == CRV_FALLOFF_NONE) {
         struct RTCRay ray = ray_along(point->origin, direction, radius);
-        return embree_occluded(r->occluders->rtc, &ray) ? 0.0 : 1.0;
+        out[0] = embree_occluded(r->occluders->rtc, &ray) ? 0.0 : 1.0;
+        return;
     }
     share = free_share(r, point->origin, direction, radius);
-    return share < 1.0 ? 1.0 - falloff_weight(o, share) : 1.0;
+    for (int32_t k = 0; k < falloffs.count; k++)
+        out[k] = share < 1.0 ? 1.0 - falloff_weight(o, falloffs.kinds[k], share) : 1.0;
 }
 
 /* A power of two, so that each copy gets whole blocks of its sequence. */
@@ -136,29 +147,45 @@ static reference_value summary(const double *sum, int32_t copies, int32_t rays)
                              .rays = rays};
 }
 
-reference_value reference_trace(const reference *r, const reference_point *point,
-                                uint64_t stream)
+/* Summaries of all falloffs; the largest of their errors. */
+static float summarise(double sums[REFERENCE_FALLOFFS][MAX_COPIES], int32_t count,
+                       int32_t copies, int32_t rays, reference_value *out)
+{
+    float error = 0.0f;
+    for (int32_t k = 0; k < count; k++) {
+        out[k] = summary(sums[k], copies, rays);
+        error = fmaxf(error, out[k].error);
+    }
+    return error;
+}
+
+void reference_trace(const reference *r, const reference_point *point, uint64_t stream,
+                     const crv_falloff *falloffs, int32_t count, reference_value *out)
 {
     const reference_options *o = &r->options;
     direction_frame frame = frame_around(point->normal);
     int32_t copies = copy_count(o->rays), traced = 0;
     int32_t until = o->max_error > 0.0f && o->rays > FIRST_STOP ? FIRST_STOP : o->rays;
-    double sum[MAX_COPIES] = {0};
+    double sums[REFERENCE_FALLOFFS][MAX_COPIES] = {{0}}, open[REFERENCE_FALLOFFS];
+    for (int32_t k = 0; k < count; k++)
+        out[k] = (reference_value){.accessibility = 1.0f};
     if (!r->occluders)
-        return (reference_value){.accessibility = 1.0f};
+        return;
     for (;;) {
-        reference_value value;
         for (int32_t c = 0; c < copies; c++) {
             uint64_t seed = sampling_mix(stream + (uint64_t)c);
             int32_t last = rays_of_copy(until, copies, c);
-            for (int32_t i = rays_of_copy(traced, copies, c); i < last; i++)
-                sum[c] +=
-                    trace_ray(r, point, &frame, sampling_owen_sobol((uint32_t)i, seed));
+            for (int32_t i = rays_of_copy(traced, copies, c); i < last; i++) {
+                trace_ray(r, point, &frame, sampling_owen_sobol((uint32_t)i, seed),
+                          (falloff_list){falloffs, count}, open);
+                for (int32_t k = 0; k < count; k++)
+                    sums[k][c] += open[k];
+            }
         }
         traced = until;
-        value = summary(sum, copies, traced);
-        if (traced >= o->rays || value.error <= o->max_error)
-            return value;
+        if (summarise(sums, count, copies, traced, out) <= o->max_error
+            || traced >= o->rays)
+            return;
         until = traced > o->rays / 2 ? o->rays : 2 * traced;
     }
 }

@@ -70,7 +70,7 @@ def room_of(path):
 
 def resolve(root, includer, name):
     """The project's file that a name means, relative to root, or None."""
-    folders = [os.path.dirname(includer), "include", "src", "io", "scene"]
+    folders = [os.path.dirname(includer), "include", "src", "io", "scene", "tools/crevice"]
     for folder in folders:
         path = os.path.normpath(os.path.join(folder, name))
         if os.path.isfile(os.path.join(root, path)):

@@ -430,14 +430,73 @@ static void test_adaptive(void **state)
     close_groove(&v);
 }
 
+/* One set of rays for all falloffs gives what each alone does, which other tests hold to
+ * closed forms. */
+static void test_all_falloffs(void **state)
+{
+    static const crv_weighting weightings[] = {CRV_WEIGHTING_UNIFORM,
+                                               CRV_WEIGHTING_COSINE};
+    groove v = open_groove();
+    (void)state;
+    for (int w = 0; w < 2; w++) {
+        reference_options o = options_of(weightings[w], CRV_FALLOFF_SQRT, 0.7, 96);
+        o.all_falloffs = true;
+        reference *all = make(v.s, &v.g, &o);
+        reference_advance(all, reference_total(all), 0);
+        o.all_falloffs = false;
+        for (int f = 0; f < REFERENCE_FALLOFFS; f++) {
+            const float *a = reference_falloff_accessibility(all, (crv_falloff)f);
+            const float *e = reference_falloff_error(all, (crv_falloff)f);
+            o.falloff = (crv_falloff)f;
+            reference *one = make(v.s, &v.g, &o);
+            size_t size = (size_t)reference_total(one) * sizeof *a;
+            reference_advance(one, reference_total(one), 0);
+            assert_memory_equal(a, reference_accessibility(one), size);
+            assert_memory_equal(e, reference_error(one), size);
+            if (f == CRV_FALLOFF_SQRT)
+                assert_memory_equal(a, reference_accessibility(all), size);
+            reference_free(one);
+        }
+        reference_free(all);
+    }
+    close_groove(&v);
+}
+
+/* A pixel gets rays until the worst of its falloffs is done. */
+static void test_all_falloffs_stop_together(void **state)
+{
+    groove v = open_groove();
+    reference_options o =
+        options_of(CRV_WEIGHTING_COSINE, CRV_FALLOFF_LINEAR, 0.7, REFERENCE_MAX_RAYS);
+    messages m;
+    crv_logger log = catch_messages(&m);
+    (void)state;
+    o.max_error = 0.01f;
+    o.all_falloffs = true;
+    reference *r = make(v.s, &v.g, &o);
+    reference_advance(r, reference_total(r), 0);
+    for (int f = 0; f < REFERENCE_FALLOFFS; f++)
+        for (int64_t i = 0; i < reference_total(r); i++)
+            assert_true(reference_falloff_error(r, (crv_falloff)f)[i] <= 0.01f);
+    assert_int_equal(reference_save(r, "all_falloffs.checkpoint", &log), -1);
+    assert_int_equal(m.errors, 1);
+    reference_free(r);
+    close_groove(&v);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_closed_forms),     cmocka_unit_test(test_convergence),
-        cmocka_unit_test(test_falloffs),         cmocka_unit_test(test_plane),
-        cmocka_unit_test(test_closed),           cmocka_unit_test(test_visible_groove),
-        cmocka_unit_test(test_visible_distance), cmocka_unit_test(test_empty),
-        cmocka_unit_test(test_adaptive)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_closed_forms),
+                                       cmocka_unit_test(test_convergence),
+                                       cmocka_unit_test(test_falloffs),
+                                       cmocka_unit_test(test_plane),
+                                       cmocka_unit_test(test_closed),
+                                       cmocka_unit_test(test_visible_groove),
+                                       cmocka_unit_test(test_visible_distance),
+                                       cmocka_unit_test(test_empty),
+                                       cmocka_unit_test(test_adaptive),
+                                       cmocka_unit_test(test_all_falloffs),
+                                       cmocka_unit_test(test_all_falloffs_stop_together)};
     int result = cmocka_run_group_tests(tests, NULL, NULL);
     remove_files();
     return result;

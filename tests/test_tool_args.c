@@ -240,6 +240,73 @@ static void test_wrong_usage(void **state)
     assert_int_equal(PARSE(&s, "", "-o", "out"), EXIT_USAGE);
 }
 
+typedef struct list_settings {
+    common_settings common;
+    const char *first;
+    arg_texts files, only;
+} list_settings;
+
+static const arg list_rows[] = {
+    {.name = "FIRST", .type = ARG_TEXT, .offset = offsetof(list_settings, first)},
+    {.name = "FILE",
+     .type = ARG_TEXTS,
+     .required = true,
+     .offset = offsetof(list_settings, files)},
+    {.name = "--only", .type = ARG_TEXTS, .offset = offsetof(list_settings, only)},
+};
+static const arg_table list_table = ARG_TABLE("All", list_rows);
+static const arg_table *const list_tables[] = {&list_table, NULL};
+static const command list_command = {.name = "list", .tables = list_tables};
+
+static void test_texts_may_be_given_again(void **state)
+{
+    char first[] = "first", a[] = "a", b[] = "b", c[] = "c", flag[] = "--only",
+         empty[] = "";
+    char *words[] = {first, a, flag, b, c, flag, a};
+    list_settings s = {0};
+    report r;
+
+    (void)state;
+    report_init(&r);
+    assert_int_equal(args_parse(&list_command, 7, words, &s, &r), EXIT_DONE);
+    assert_string_equal(s.first, "first");
+    assert_int_equal(s.files.count, 2);
+    assert_string_equal(s.files.value[0], "a");
+    assert_string_equal(s.files.value[1], "c");
+    assert_int_equal(s.only.count, 2);
+    assert_string_equal(s.only.value[0], "b");
+    assert_string_equal(s.only.value[1], "a");
+
+    s = (list_settings){0};
+    assert_int_equal(args_parse(&list_command, 1, words, &s, &r), EXIT_USAGE);
+    assert_int_equal(r.errors, 1); /* FILE is missing */
+    words[1] = empty;
+    s = (list_settings){0};
+    assert_int_equal(args_parse(&list_command, 2, words, &s, &r), EXIT_USAGE);
+    assert_int_equal(r.errors, 2);
+}
+
+static void test_texts_have_a_limit(void **state)
+{
+    char first[] = "first", file[] = "file";
+    char *words[ARG_TEXTS_MAX + 2];
+    list_settings s = {0};
+    report r;
+
+    (void)state;
+    report_init(&r);
+    words[0] = first;
+    for (int i = 1; i < ARG_TEXTS_MAX + 2; i++)
+        words[i] = file;
+    assert_int_equal(args_parse(&list_command, ARG_TEXTS_MAX + 1, words, &s, &r),
+                     EXIT_DONE);
+    assert_int_equal(s.files.count, ARG_TEXTS_MAX);
+    s = (list_settings){0};
+    assert_int_equal(args_parse(&list_command, ARG_TEXTS_MAX + 2, words, &s, &r),
+                     EXIT_USAGE);
+    assert_int_equal(r.errors, 1);
+}
+
 static void test_frame_ranges(void **state)
 {
     static const char *const wrong[] = {"",     "a",      "1-",    "-3",  "5-1", "1-9x0",
@@ -286,6 +353,8 @@ int main(void)
         cmocka_unit_test(test_a_flag_brings_its_method),
         cmocka_unit_test(test_after_two_dashes_all_is_a_name),
         cmocka_unit_test(test_wrong_usage),
+        cmocka_unit_test(test_texts_may_be_given_again),
+        cmocka_unit_test(test_texts_have_a_limit),
         cmocka_unit_test(test_frame_ranges),
         cmocka_unit_test(test_frame_names),
     };

@@ -10,10 +10,25 @@ crevice_test(test_tool_metrics_heatmap
 crevice_test(test_tool_args
     SOURCES test_tool_args.c ${tool_dir}/args.c ${tool_dir}/values.c ${tool_dir}/report.c
             ${tool_dir}/frames.c)
+crevice_test(test_tool_stability
+    SOURCES test_tool_stability.c ${tool_dir}/study/stability.c)
+crevice_test(test_tool_closed_forms
+    SOURCES test_tool_closed_forms.c quadrature.c ${tool_dir}/study/closed_forms.c
+            ${tool_dir}/study/fitted_order.c)
+crevice_test(test_tool_relief_truth
+    SOURCES test_tool_relief_truth.c ${tool_dir}/study/claims_relief_truth.c)
+foreach(test test_tool_stability test_tool_closed_forms test_tool_relief_truth)
+    target_include_directories(${test} PRIVATE ${tool_dir})
+endforeach()
 foreach(test test_tool_metrics test_tool_metrics_fit test_tool_metrics_flip
         test_tool_metrics_heatmap test_tool_args)
     target_include_directories(${test} PRIVATE ${tool_dir})
 endforeach()
+
+crevice_test(test_tool_plot
+    SOURCES test_tool_plot.c ${tool_dir}/study/plot_pareto.c ${tool_dir}/study/plot_axis.c
+            ${tool_dir}/study/text.c)
+target_include_directories(test_tool_plot PRIVATE ${tool_dir})
 
 # Each script gets the tool and a folder of its own to write in.
 function(tool_test name)
@@ -33,3 +48,5 @@ tool_test(tool_compare)
 tool_test(tool_errors)
 tool_test(tool_shared)
 set_tests_properties(tool_shared PROPERTIES TIMEOUT 600)
+tool_test(tool_report)
+set_tests_properties(tool_report PROPERTIES TIMEOUT 600)

@@ -62,7 +62,7 @@ static const arg *find_positional(const command *c, size_t index)
     for (size_t t = 0; c->tables[t] != NULL; t++) {
         for (size_t i = 0; i < c->tables[t]->count; i++) {
             const arg *row = &c->tables[t]->rows[i];
-            if (row->name[0] != '-' && index-- == 0)
+            if (row->name[0] != '-' && (index-- == 0 || row->type == ARG_TEXTS))
                 return row;
         }
     }
@@ -118,7 +118,7 @@ static int wrong_value(const arg *row, const char *text, report *r)
 /* `given` is the first member of every type that has it. */
 static void mark_given(const arg *row, void *settings)
 {
-    if (row->type != ARG_FLAG && row->type != ARG_TEXT)
+    if (row->type != ARG_FLAG && row->type != ARG_TEXT && row->type != ARG_TEXTS)
         *(bool *)((char *)settings + row->offset) = true;
 }
 
@@ -293,10 +293,20 @@ static int parse_positional(const command *c, const char *text, size_t *index,
     }
     ++*index;
     if (!args_set_value(row, text, settings)) {
-        report_error(r, "%s: is empty; name a file", row->name);
+        if (text[0] == '\0')
+            report_error(r, "%s: is empty; name a file", row->name);
+        else
+            report_error(r, "%s: is given more than %d times; leave some out", row->name,
+                         ARG_TEXTS_MAX);
         return EXIT_USAGE;
     }
     return EXIT_DONE;
+}
+
+static bool has_text(const arg *row, const void *member)
+{
+    return row->type == ARG_TEXTS ? ((const arg_texts *)member)->count > 0
+                                  : *(const char *const *)member != NULL;
 }
 
 static int check_required(const command *c, const void *settings, report *r)
@@ -305,7 +315,7 @@ static int check_required(const command *c, const void *settings, report *r)
         for (size_t i = 0; i < c->tables[t]->count; i++) {
             const arg *row = &c->tables[t]->rows[i];
             const void *member = (const char *)settings + row->offset;
-            if (!row->required || *(const char *const *)member != NULL)
+            if (!row->required || has_text(row, member))
                 continue;
             report_error(r, "%s is missing; see `crevice help %s`",
                          row->short_name == 'o' ? "-o OUT" : row->name, c->name);

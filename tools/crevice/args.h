@@ -13,6 +13,7 @@
 typedef enum arg_type {
     ARG_FLAG,   /* bool; takes no value */
     ARG_TEXT,   /* const char *; NULL unless given */
+    ARG_TEXTS,  /* arg_texts; may be given again, also as the last one without a flag */
     ARG_INT,    /* arg_int */
     ARG_NUMBER, /* arg_number; infinite only where max is */
     ARG_VECTOR, /* arg_vector: X,Y,Z */
@@ -41,12 +42,19 @@ typedef struct arg_size {
     int32_t width, height;
 } arg_size;
 
+#define ARG_TEXTS_MAX 64
+
+typedef struct arg_texts {
+    int32_t count;
+    const char *value[ARG_TEXTS_MAX];
+} arg_texts;
+
 typedef struct arg {
     const char *name;  /* "--size", or "MODEL" for what goes without a flag */
     char short_name;   /* 'o' for -o; 0 for none */
     const char *value; /* what help calls the value */
     arg_type type;
-    bool required;
+    bool required;              /* texts only */
     size_t offset;              /* of the member in the settings */
     double min, max;            /* int and number; inclusive */
     const char *const *choices; /* NULL-terminated */

@@ -11,7 +11,7 @@
 typedef struct reference_settings {
     view_settings view;
     arg_int rays, weighting, falloff, definition, kind, seed;
-    arg_number radius, tau, u, max_error;
+    arg_number radius, tau, u, thickness, max_error;
     bool resume;
 } reference_settings;
 
@@ -95,6 +95,15 @@ static const arg integral_rows[] = {
      .initial = "full",
      .offset = offsetof(reference_settings, kind),
      .help = "visible: only what the depth layers hold occludes, closed at silhouettes"},
+    {.name = "--thickness",
+     .value = "X",
+     .type = ARG_NUMBER,
+     .min = 1e-3,
+     .max = 1e3,
+     .unit = "radius",
+     .initial = "0.5",
+     .offset = offsetof(reference_settings, thickness),
+     .help = "visible: how far behind its front a silhouette is closed"},
 };
 static const arg_table integral_table = ARG_TABLE("Occlusion", integral_rows);
 
@@ -171,6 +180,10 @@ static int check(const reference_settings *s, reference_run *run, report *r)
         report_error(r, "--u: is of the alchemy falloff; add --falloff alchemy");
         return EXIT_USAGE;
     }
+    if (s->thickness.given && s->kind.value != REFERENCE_VISIBLE) {
+        report_error(r, "--thickness: is of what the layers hold; add --kind visible");
+        return EXIT_USAGE;
+    }
     result = output_check(output, s->view.model, r);
     return result == EXIT_DONE ? reference_run_check(run, output, s->resume, r) : result;
 }
@@ -186,6 +199,7 @@ static reference_options options_of(const reference_settings *s, const scene *mo
         .tau = (float)s->tau.value,
         .u = (float)s->u.value,
         .radius = (float)s->radius.value,
+        .thickness = (float)s->thickness.value,
         .rays = s->rays.value,
         .max_error = (float)s->max_error.value,
         .normals = s->view.normals_from.value == 0 ? SCENE_NORMALS_INTERPOLATED

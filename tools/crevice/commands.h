@@ -11,5 +11,6 @@ extern const command command_gbuffer;
 extern const command command_reference;
 extern const command command_compare;
 extern const command command_methods;
+extern const command command_report;
 
 #endif

@@ -35,8 +35,7 @@ int output_check(const char *path, const char *input, report *r)
 
 /* io_write() goes through a temporary file, which a signal in the middle would leave
  * behind; so signals are held until it is done and then take their course. */
-int output_write(const char *path, const io_image *image, const io_write_options *options,
-                 report *r)
+int output_guarded(int (*write)(void *data), void *data)
 {
     struct sigaction hold = {.sa_handler = on_signal, .sa_flags = SA_RESTART};
     struct sigaction former[HELD_COUNT];
@@ -50,12 +49,34 @@ int output_write(const char *path, const io_image *image, const io_write_options
         if (former[i].sa_handler != SIG_IGN)
             sigaction(held_signals[i], &hold, NULL);
     }
-    result = io_write(path, image, options, &r->logger);
+    result = write(data);
     for (int i = 0; i < HELD_COUNT; i++)
         sigaction(held_signals[i], &former[i], NULL);
     if (caught_signal != 0)
         raise(caught_signal);
-    if (result != 0)
+    return result;
+}
+
+typedef struct picture {
+    const char *path;
+    const io_image *image;
+    const io_write_options *options;
+    const crv_logger *log;
+} picture;
+
+static int write_picture(void *data)
+{
+    const picture *p = data;
+
+    return io_write(p->path, p->image, p->options, p->log);
+}
+
+int output_write(const char *path, const io_image *image, const io_write_options *options,
+                 report *r)
+{
+    picture p = {path, image, options, &r->logger};
+
+    if (output_guarded(write_picture, &p) != 0)
         return EXIT_FAILED;
     report_info(r, "wrote %s", path);
     return EXIT_DONE;

@@ -105,6 +105,14 @@ static bool set_choice(const arg *row, const char *text, arg_int *out)
     return false;
 }
 
+static bool add_text(const char *text, arg_texts *out)
+{
+    if (text[0] == '\0' || out->count == ARG_TEXTS_MAX)
+        return false;
+    out->value[out->count++] = text;
+    return true;
+}
+
 bool args_set_value(const arg *row, const char *text, void *settings)
 {
     void *member = (char *)settings + row->offset;
@@ -116,6 +124,8 @@ bool args_set_value(const arg *row, const char *text, void *settings)
     case ARG_TEXT:
         *(const char **)member = text;
         return text[0] != '\0';
+    case ARG_TEXTS:
+        return add_text(text, member);
     case ARG_INT:
         return set_int(row, text, member);
     case ARG_NUMBER:
@@ -148,6 +158,7 @@ void args_describe_values(const arg *row, char *out, size_t size)
     switch (row->type) {
     case ARG_FLAG:
     case ARG_TEXT:
+    case ARG_TEXTS:
         break;
     case ARG_INT:
     case ARG_NUMBER:
