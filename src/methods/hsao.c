@@ -107,7 +107,7 @@ const crv__method crv__method_hsao = {
              .options = OPTIONS},
     .accessibility = accessibility,
     .presets = {
-        "directions=5 steps=6 normal_rays=0", "directions=7 steps=12 normal_rays=1",
+        "directions=4 steps=6 normal_rays=1", "directions=7 steps=12 normal_rays=1",
         "directions=12 steps=12 normal_rays=2", "directions=24 steps=24 normal_rays=4",
         "directions=7 steps=12 normal_rays=1 falloff=linear thickness=0 "
         "filter=gauss5 filter_slope=off filter_normal=180"}};

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #define _POSIX_C_SOURCE 200809L
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,16 +21,20 @@ typedef struct report_settings {
     arg_int rays;
 } report_settings;
 
+/* Those that are `is_small` run many variants of everything; a picture of
+ * SMALL_PIXELS tells as much of those as a larger one. */
 static const struct {
     const char *name;
     int (*run)(study *s);
+    bool is_small;
 } sections[] = {
-    {"methods", study_methods},           {"missing", study_missing},
-    {"hsao", study_claims_hsao},          {"hbao", study_claims_hbao},
-    {"alchemy", study_claims_alchemy},    {"vao", study_claims_vao},
-    {"closed-forms", study_closed_forms}, {"stability", study_stability},
+    {"methods", study_methods, false},          {"missing", study_missing, false},
+    {"hsao", study_claims_hsao, true},          {"hbao", study_claims_hbao, true},
+    {"alchemy", study_claims_alchemy, true},    {"vao", study_claims_vao, true},
+    {"closed-forms", study_closed_forms, true}, {"stability", study_stability, true},
 };
 enum { SECTION_COUNT = sizeof sections / sizeof sections[0] };
+enum { SMALL_PIXELS = 640 * 360 };
 
 static const arg file_rows[] = {
     {.name = "MODEL",
@@ -60,8 +65,9 @@ static const arg study_rows[] = {
      .type = ARG_TEXT,
      .offset = offsetof(report_settings, main),
      .computed = "the first",
-     .help = "the view that the papers' statements are measured on; that of a model has "
-             "its file's name without the extension"},
+     .help = "the view that the papers' statements are measured on, at 640x360 or so "
+             "where it is larger; that of a model has its file's name without the "
+             "extension"},
     {.name = "--only",
      .value = "SECTION",
      .type = ARG_TEXTS,
@@ -80,7 +86,7 @@ static const arg study_rows[] = {
      .type = ARG_INT,
      .min = 16,
      .max = REFERENCE_MAX_RAYS,
-     .initial = "256",
+     .initial = "128",
      .offset = offsetof(report_settings, rays),
      .help = "rays of the references for each pixel, at most"},
 };
@@ -192,20 +198,53 @@ static int write_introduction(const report_settings *settings, study *s)
     return EXIT_DONE;
 }
 
-static int run_sections(const report_settings *settings, study *s)
+/* The main view, made smaller where it is larger than SMALL_PIXELS: *copy, to be freed.
+ */
+static int shrink_main(study *s, study_view *copy)
 {
-    int result = write_introduction(settings, s);
+    double pixels = (double)s->main->width * (double)s->main->height;
+    double scale = sqrt(SMALL_PIXELS / pixels);
+    int result;
 
+    if (scale >= 1.0)
+        return EXIT_DONE;
+    result = study_view_resized(s, s->main, (int32_t)(scale * s->main->width),
+                                (int32_t)(scale * s->main->height), copy);
     if (result == EXIT_DONE)
-        result = study_views_section(s);
+        s->main = copy;
+    return result;
+}
+
+static int run_one_kind(const report_settings *settings, study *s, bool is_small)
+{
+    int result = EXIT_DONE;
+
     for (int i = 0; i < SECTION_COUNT && result == EXIT_DONE; i++) {
-        if (!is_wanted(settings, sections[i].name))
+        if (sections[i].is_small != is_small || !is_wanted(settings, sections[i].name))
             continue;
         study_progress(s, "section %s", sections[i].name);
         result = sections[i].run(s);
         if (page_failed(s->page))
             result = EXIT_FAILED;
     }
+    return result;
+}
+
+static int run_sections(const report_settings *settings, study *s)
+{
+    study_view *main_view = s->main, copy = {0};
+    int result = write_introduction(settings, s);
+
+    if (result == EXIT_DONE)
+        result = study_views_section(s);
+    if (result == EXIT_DONE)
+        result = run_one_kind(settings, s, false);
+    if (result == EXIT_DONE)
+        result = shrink_main(s, &copy);
+    if (result == EXIT_DONE)
+        result = run_one_kind(settings, s, true);
+    s->main = main_view;
+    study_view_free(&copy);
     if (result == EXIT_DONE)
         study_references_section(s);
     return result;

@@ -176,8 +176,7 @@ void view_cross(const double a[3], const double b[3], double out[3])
     }
 }
 
-/* What sin^2 of the angle between the view and `up` is; NAN where the view is a point. */
-static double up_slant(const scene_view *v)
+double view_up_slant(const scene_view *v)
 {
     double d[3], up[3], cross[3], d2 = 0.0, up2 = 0.0, cross2 = 0.0;
 
@@ -222,11 +221,11 @@ static int choose_view(const view_settings *s, const scene *model, scene_view *v
         v->vfov_rad = vfov;
     if (s->ortho.given)
         v->view_height = (float)s->ortho.value;
-    if (isnan(up_slant(v))) {
+    if (isnan(view_up_slant(v))) {
         report_error(r, "--eye: is the same point as the target; move one of them");
         return EXIT_USAGE;
     }
-    if (up_slant(v) > 1e-10)
+    if (view_up_slant(v) > 1e-10)
         return EXIT_DONE;
     if (s->up.given) {
         report_error(r, "--up: lies along the view; give another direction");

@@ -40,6 +40,10 @@ int view_load(const view_settings *s, scene **out, report *r);
 int view_render(const view_settings *s, const scene *model, bool texture_frames,
                 scene_gbuffer *out, report *r);
 
+/* sin^2 of the angle between the view's direction and its up; NAN where the view is a
+ * point. */
+double view_up_slant(const scene_view *v);
+
 /* The cross product. */
 void view_cross(const double a[3], const double b[3], double out[3]);
 

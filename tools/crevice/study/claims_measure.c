@@ -31,7 +31,8 @@ crv_options measure_much(const crv_options *options, int32_t samples)
         much.samples = samples;
     if (reads(options, "directions"))
         much.directions = 24;
-    if (reads(options, "steps"))
+    /* One step of containment is another estimator, not a coarse one. */
+    if (reads(options, "steps") && options->steps > 1)
         much.steps = 24;
     return much;
 }
@@ -45,6 +46,10 @@ crv_options measure_cubic(const study_view *v, const char *method, int32_t sampl
     o.samples = samples;
     if (reads(&o, "falloff"))
         o.falloff = CRV_FALLOFF_CUBIC;
+    if (reads(&o, "steps"))
+        o.steps = 1;
+    if (reads(&o, "thickness"))
+        o.thickness = 0.0f;
     return o;
 }
 

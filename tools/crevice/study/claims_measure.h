@@ -16,8 +16,9 @@ int measure_picture(study *s, study_view *v, const crv_options *options, float *
  * is the method's own. samples: n; horizon methods take 24 directions of 24 steps. */
 crv_options measure_much(const crv_options *options, int32_t samples);
 
-/* A method that samples points, unfiltered, a 4x4 tile, with the falloff of vao where it
- * has a choice. */
+/* A method that samples points as its paper has it (containment tests the end of a ray
+ * alone, against a depth buffer solid without end), unfiltered, a 4x4 tile, with the
+ * falloff of vao where it has a choice. */
 crv_options measure_cubic(const study_view *v, const char *method, int32_t samples);
 
 /* RMS error against truth over so many draws of the noise. */

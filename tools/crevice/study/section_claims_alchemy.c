@@ -11,6 +11,19 @@
 enum { ROUNDS = 5, DRAWS = 2 };
 enum { PLATFORMS = 5 };
 
+/* The projected radius of a pixel of the picture, px. */
+static double radius_px_at(const study_view *v, const scene_gbuffer *g, int32_t x,
+                           int32_t y)
+{
+    size_t row = (size_t)(y + g->desc.guard_top);
+    double d =
+        (double)
+            g->depth[0][row * (size_t)g->desc.width + (size_t)(x + g->desc.guard_left)];
+    double unit = g->camera.projection == CRV_ORTHOGRAPHIC ? 1.0 : d;
+
+    return (double)v->radius * (double)g->camera.fy_px / unit;
+}
+
 /* The projected radius, px, that a tenth of the view's surfaces exceed: those near by get
  * all samples. */
 static int near_radius_px(study *s, study_view *v, float *out)
@@ -24,14 +37,8 @@ static int near_radius_px(study *s, study_view *v, float *out)
         return result;
     for (int32_t y = 0; y < v->height; y++) {
         for (int32_t x = 0; x < v->width; x++) {
-            size_t row = (size_t)(y + g->desc.guard_top);
-            double d = (double)g->depth[0][row * (size_t)g->desc.width
-                                           + (size_t)(x + g->desc.guard_left)];
-            double unit = g->camera.projection == CRV_ORTHOGRAPHIC ? 1.0 : d;
-            double px = (double)v->radius * (double)g->camera.fy_px / unit;
-
             if (v->mask[(size_t)y * (size_t)v->width + (size_t)x] != 0)
-                bins[(int)fmin(px, BINS - 1)]++;
+                bins[(int)fmin(radius_px_at(v, g, x, y), BINS - 1)]++;
         }
     }
     for (; bin > 1 && above + bins[bin] < v->pixels / 10; bin--)
@@ -56,12 +63,7 @@ static int mean_samples(study *s, study_view *v, const crv_options *o, double *o
         return result;
     for (int32_t y = 0; y < v->height; y++) {
         for (int32_t x = 0; x < v->width; x++) {
-            size_t row = (size_t)(y + g->desc.guard_top);
-            double d = (double)g->depth[0][row * (size_t)g->desc.width
-                                           + (size_t)(x + g->desc.guard_left)];
-            double unit = g->camera.projection == CRV_ORTHOGRAPHIC ? 1.0 : d;
-            double px = (double)o->radius * (double)g->camera.fy_px / unit;
-            double band = ceil(o->bands * px / (double)o->band_px);
+            double band = ceil(o->bands * radius_px_at(v, g, x, y) / (double)o->band_px);
 
             if (v->mask[(size_t)y * (size_t)v->width + (size_t)x] != 0)
                 sum += o->samples * fmin(fmax(band, 1.0), o->bands) / o->bands;

@@ -43,11 +43,11 @@ static void free_records(table *t)
     free(t);
 }
 
-/* The other views are there to see whether the main one is a special case: three presets
+/* The other views are there to see whether the main one is a special case: two presets
  * do. */
 static bool is_wanted(const study *s, const study_view *v, int preset)
 {
-    return v == s->main || preset <= CRV_PRESET_HIGH;
+    return v == s->main || preset == CRV_PRESET_MEDIUM || preset == CRV_PRESET_HIGH;
 }
 
 static int estimate(study *s, study_view *v, const crv_options *options, record *out)
@@ -229,10 +229,11 @@ static void write_plot(study *s, const table *t)
                                   .is_line = true};
     }
     snprintf(caption, sizeof caption,
-             "%s: error over time, from `low` to `%s`, each method against its own "
+             "%s: error over time, from `%s` to `%s`, each method against its own "
              "integral: lower left is better, but equal heights are equal errors of "
              "different integrals. Default filter of each preset, one layer.",
-             t->view->name, t->view == s->main ? "ultra" : "high");
+             t->view->name, t->view == s->main ? "low" : "medium",
+             t->view == s->main ? "ultra" : "high");
     page_plot(s->page, &(plot){.caption = caption,
                                .x_title = "time of a picture, ms",
                                .y_title = "RMSE",
@@ -310,8 +311,7 @@ static void write_pictures(study *s, const table *t)
         /* One wall of the main view is in plain sight. */
         bool is_open = t->view == s->main && p == CRV_PRESET_HIGH;
 
-        if (!is_wanted(s, t->view, p)
-            || (t->view != s->main && p != CRV_PRESET_MEDIUM && p != CRV_PRESET_HIGH))
+        if (!is_wanted(s, t->view, p))
             continue;
         snprintf(summary, sizeof summary, "Pictures: %s", crv_preset_name((crv_preset)p));
         if (is_open)
@@ -365,7 +365,7 @@ int study_methods(study *s)
               "look-ups in the buffers for each pixel, at most. "
               "In the error maps white is right, blue too dark, orange too bright; the "
               "darkest colours stand for %.2f and more. On views other than %s the "
-              "presets `ultra` and `paper` are left out to save time.",
+              "presets `low`, `ultra` and `paper` are left out to save time.",
               REPEATS, ERROR_SCALE, s->main->name);
     for (int32_t i = 0; i < s->view_count && result == EXIT_DONE; i++)
         if (&s->views[i] == s->main)

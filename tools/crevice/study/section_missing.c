@@ -352,7 +352,7 @@ int study_missing(study *s)
     if (all == NULL)
         return report_no_memory(s->r);
     write_introduction(s);
-    page_grid_begin(s->page);
+    page_pairs_begin(s->page);
     for (int32_t i = 0; i < s->view_count; i++)
         for (int k = 0; k < SUBJECT_COUNT && result == EXIT_DONE; k++)
             result = measure(s, &s->views[i], &SUBJECTS[k], &all[i * SUBJECT_COUNT + k]);

@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 
 #include "text.h"
+#include "view.h"
 #include "views.h"
 
 enum { FILE_MAX = 1 << 22, NAME_MAX_LENGTH = 40 };
@@ -131,25 +132,6 @@ static int read_lens(const place *at, const cJSON *view, views_entry *out)
     return EXIT_DONE;
 }
 
-/* The angle between view and up must not vanish, nor the view's length. */
-static bool sees(const scene_view *v)
-{
-    double d[3], up[3], cross[3], d2 = 0.0, up2 = 0.0, cross2 = 0.0;
-
-    for (int i = 0; i < 3; i++) {
-        d[i] = (double)v->target[i] - (double)v->eye[i];
-        up[i] = (double)v->up[i];
-        d2 += d[i] * d[i];
-        up2 += up[i] * up[i];
-    }
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
-        cross[i] = d[j] * up[k] - d[k] * up[j];
-        cross2 += cross[i] * cross[i];
-    }
-    return cross2 > 1e-10 * d2 * up2;
-}
-
 /* Files are meant relative to the list's folder. */
 static int read_path(const place *at, const cJSON *view, text *out)
 {
@@ -184,7 +166,7 @@ static int read_view(const place *at, views_list *list, const cJSON *view)
         result = read_vector(at, view, "up", entry.camera.up);
     if (result == EXIT_DONE)
         result = read_lens(at, view, &entry);
-    if (result == EXIT_DONE && !sees(&entry.camera))
+    if (result == EXIT_DONE && !(view_up_slant(&entry.camera) > 1e-10))
         result = refuse(at, "eye", "is the target, or up lies along the view; move it");
     if (result == EXIT_DONE)
         result = views_add(list, name, path.data, &entry, at->r);
