@@ -15,7 +15,7 @@ ROOMS = {
     "src/methods": {"include/crevice", "src/base", "src/core", "src/shared"},
     "src/filters": {"include/crevice", "src/base", "src/core", "src/shared"},
     "src/cpu/simd": set(),
-    "src/cpu/kernels": {"src/cpu/simd", "src/shared"},
+    "src/cpu/kernels": {"src/cpu/simd", "src/shared"},  # and what EXTRA lists
     "src/cpu": {"include/crevice", "src/base", "src/core", "src/shared",
                 "src/cpu/simd", "src/cpu/kernels"},
     "src/vulkan": {"include/crevice", "src/base", "src/core", "src/shared"},
@@ -27,8 +27,11 @@ ROOMS = {
 }
 
 # A header that a room may include beyond its rooms: the registries are lists that the
-# core reads, and nothing else of methods and filters is.
+# core reads, and nothing else of methods and filters is. Kernels read a frame's planes and
+# the values of its options.
 EXTRA = {
+    "src/cpu/kernels": {"src/core/frame.h", "src/core/image.h",
+                        "include/crevice/options.h"},
     "src/core": {"src/methods/list.h", "src/filters/list.h"},
 }
 

@@ -14,6 +14,24 @@
 extern "C" {
 #endif
 
+/* Instruction sets for which there are kernels. Every one computes the same estimate:
+ * within 1e-3 of the scalar code, but for a few pixels where rounding picks the
+ * neighbouring texel. */
+typedef enum crv_isa {
+    CRV_ISA_SCALAR, /* plain C, the specification */
+    CRV_ISA_SSE4,   /* x86-64-v2 */
+    CRV_ISA_AVX2,   /* with FMA */
+    CRV_ISA_AVX512, /* F, BW, DQ and VL */
+    CRV_ISA_NEON    /* AArch64 */
+} crv_isa;
+
+/* "scalar", "sse4", "avx2", "avx512", "neon"; NULL for no such set. Thread-safe. */
+CRV_API const char *crv_isa_name(crv_isa isa);
+
+/* The sets that are built in and that this machine has, a bit 1u << crv_isa each;
+ * CRV_ISA_SCALAR is always there. Thread-safe. */
+CRV_API uint32_t crv_isa_available(void);
+
 /* Fill it with crv_context_desc_init(), then change what differs. */
 typedef struct crv_context_desc {
     size_t struct_size;      /* set by crv_context_desc_init() */
@@ -21,6 +39,12 @@ typedef struct crv_context_desc {
     crv_allocator allocator; /* default: the C library's */
     crv_parallel parallel;   /* default: OpenMP, or one thread where built without */
     int32_t threads; /* OpenMP only: 1 to 1024, or 0 (default) for what OpenMP chooses */
+    uint32_t isa_mask; /* bits 1u << crv_isa that may be used; the fastest of them that
+                          is available is, and CRV_ISA_SCALAR where none is. 0 (default):
+                          all */
+    /* 1: sampling points exactly where the scalar code has them. 0 (default): kernels may
+     * move them a little where that is faster and measured to be no worse. */
+    int32_t exact;
 } crv_context_desc;
 
 /* Sets the defaults. Pass sizeof *desc as struct_size. Thread-safe. */
@@ -37,6 +61,9 @@ CRV_API crv_status crv_context_create(const crv_context_desc *desc, crv_context 
 
 /* Everything made with the context must have been destroyed. NULL does nothing. */
 CRV_API void crv_context_destroy(crv_context *context);
+
+/* The instruction set that the context's plans use; CRV_ISA_SCALAR for NULL. */
+CRV_API crv_isa crv_context_isa(const crv_context *context);
 
 typedef struct crv_plan crv_plan;
 

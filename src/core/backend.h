@@ -6,21 +6,41 @@
 #include "core/context.h"
 #include "core/registry.h"
 
-typedef struct crv__work {
+/* What a plan is made of: the same for all its runs. */
+typedef struct crv__setup {
     const crv_context *context;
+    const crv__method *method;
+    const crv__filter *filter; /* NULL: none */
+    crv_options options;
+    crv_gbuffer_desc desc;
+    crv__noise_texel *noise; /* as in crv__frame */
+    float *directions, *pattern;
+} crv__setup;
+
+typedef struct crv__work {
+    const crv__setup *setup;
+    void *state; /* the backend's own, from plan_create() */
     const crv__frame *frame;
 } crv__work;
 
-typedef struct crv__backend {
+/*
+ * A plan's two planes cover the same rectangle: the result and, where the guard band has
+ * room, the margin that the filter reads beyond it.
+ */
+struct crv__backend {
     const char *name;
-    /* Writes the accessibility of every pixel of out's rectangle, intensity and contrast
-     * applied, background 1. */
-    void (*estimate)(const crv__work *work, const crv__method *method,
-                     const crv__plane *out);
-    /* One pass of a filter from input to the same rectangle of out, background 1. */
-    void (*filter)(const crv__work *work, const crv__filter *filter, int32_t pass,
-                   const crv__plane *input, const crv__plane *out);
-} crv__backend;
+    /* Takes all that runs need beside the planes, with the context's allocator; *state
+     * may stay NULL. Logs its own error line. */
+    crv_status (*plan_create)(const crv__setup *setup, const crv__plane *rectangle,
+                              void **state);
+    void (*plan_destroy)(const crv__setup *setup, void *state);
+    /* Writes the accessibility of every pixel to planes[0], intensity and contrast
+     * applied, background 1; with `filter_only` planes[0] holds it already. Then runs the
+     * filter's passes to and fro. *result is the plane that holds the outcome. Allocates
+     * nothing. */
+    crv_status (*run)(const crv__work *work, int filter_only, const crv__plane planes[2],
+                      const crv__plane **result);
+};
 
 extern const crv__backend crv__cpu_backend;
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "core/context.h"
+#include "core/backend.h"
 
 #include <string.h>
 
@@ -31,12 +31,21 @@ crv_status crv_context_create(const crv_context_desc *desc, crv_context **out)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "context: %d threads; use 1 to %d, or 0 for a sensible number",
                          desc->threads, MAX_THREADS);
+    if (desc->exact != 0 && desc->exact != 1)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "context: exact is %d; use 0 or 1", desc->exact);
     crv_allocator allocator =
         desc->allocator.allocate ? desc->allocator : crv__default_allocator();
     crv_context *context = crv__allocate(&allocator, 1, sizeof *context);
     if (!context)
         return crv__fail(logger, CRV_ERROR_OUT_OF_MEMORY, "context: out of memory");
-    *context = (crv_context){desc->logger, allocator, desc->parallel, desc->threads};
+    *context = (crv_context){.logger = desc->logger,
+                             .allocator = allocator,
+                             .parallel = desc->parallel,
+                             .threads = desc->threads,
+                             .isa_mask = desc->isa_mask ? desc->isa_mask : UINT32_MAX,
+                             .exact = desc->exact,
+                             .backend = &crv__cpu_backend};
     *out = context;
     return CRV_OK;
 }

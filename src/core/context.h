@@ -7,11 +7,16 @@
 #include "base/parallel.h"
 #include "crevice/context.h"
 
+typedef struct crv__backend crv__backend;
+
 struct crv_context {
     crv_logger logger;
     crv_allocator allocator;
     crv_parallel parallel;
     int32_t threads;
+    uint32_t isa_mask; /* never 0 */
+    int32_t exact;     /* 0 or 1 */
+    const crv__backend *backend;
 };
 
 static inline void crv__run_parallel(const crv_context *context, uint32_t count,

@@ -10,31 +10,26 @@
 static const double PI = 3.14159265358979323846;
 
 /*
- * The estimate covers the result and, where the guard band has room, the margin that the
+ * The planes cover the result and, where the guard band has room, the margin that the
  * filter reads beyond it, so that neighbouring pieces of a picture fit together after
  * filtering too.
  */
 struct crv_plan {
     crv_context *context;
-    const crv__backend *backend;
-    crv_options options;
-    crv_gbuffer_desc desc;
+    crv__setup setup;
+    void *state; /* the backend's */
     crv__params params;
-    crv__noise_texel *noise;
-    float *directions;
-    float *pattern;
-    crv__plane estimate, spare;
+    crv__plane planes[2]; /* the second only where there is a filter */
 };
 
-static size_t noise_count(const crv_plan *plan)
+static size_t noise_count(const crv__setup *setup)
 {
-    return (size_t)plan->options.noise_size * (size_t)plan->options.noise_size;
+    return (size_t)setup->options.noise_size * (size_t)setup->options.noise_size;
 }
 
-static size_t pattern_count(const crv_plan *plan)
+static size_t pattern_count(const crv__setup *setup)
 {
-    const crv__method *method = crv__method_of(plan->options.method);
-    return method->pattern_fill ? (size_t)plan->options.samples : 0;
+    return setup->method->pattern_fill ? (size_t)setup->options.samples : 0;
 }
 
 static int32_t wrapped(int64_t value, int32_t size)
@@ -44,7 +39,8 @@ static int32_t wrapped(int64_t value, int32_t size)
 
 static void fill_params(crv_plan *plan)
 {
-    const crv_options *o = &plan->options;
+    const crv_options *o = &plan->setup.options;
+    const crv_gbuffer_desc *d = &plan->setup.desc;
     crv__params *p = &plan->params;
     p->radius = o->radius;
     p->inv_radius = 1 / o->radius;
@@ -58,13 +54,11 @@ static void fill_params(crv_plan *plan)
     p->cos_bias = (float)cos((double)o->bias_deg * PI / 180);
     p->attenuation = (int32_t)o->attenuation;
     p->noise_size = o->noise_size;
-    p->noise_x =
-        wrapped((int64_t)plan->desc.origin_x - plan->desc.guard_left, o->noise_size);
-    p->noise_y =
-        wrapped((int64_t)plan->desc.origin_y - plan->desc.guard_top, o->noise_size);
+    p->noise_x = wrapped((int64_t)d->origin_x - d->guard_left, o->noise_size);
+    p->noise_y = wrapped((int64_t)d->origin_y - d->guard_top, o->noise_size);
     p->intensity = o->intensity;
     p->contrast = o->contrast;
-    p->layers_solid = plan->desc.layer_kind == CRV_LAYERS_SOLID;
+    p->layers_solid = d->layer_kind == CRV_LAYERS_SOLID;
     p->normal_rays = o->normal_rays;
     p->growing_sphere = o->growing_sphere;
     p->samples = o->samples;
@@ -84,30 +78,28 @@ static void fill_params(crv_plan *plan)
 }
 
 /* Directions, noise and the method's own points; 0, or -1 where memory is out. */
-static int fill_patterns(crv_plan *plan)
+static int fill_patterns(crv__setup *s)
 {
-    const crv_allocator *allocator = &plan->context->allocator;
-    const crv__method *method = crv__method_of(plan->options.method);
-    const int32_t count = plan->options.directions;
-    plan->directions = crv__allocate(allocator, (size_t)count, 2 * sizeof(float));
-    plan->noise = crv__allocate(allocator, noise_count(plan), sizeof *plan->noise);
-    uint32_t *scratch = crv__allocate(allocator, noise_count(plan), sizeof *scratch);
-    if (method->pattern_fill)
-        plan->pattern = crv__allocate(allocator, pattern_count(plan), 4 * sizeof(float));
-    const int done = plan->directions && plan->noise && scratch
-                     && (plan->pattern || !method->pattern_fill);
+    const crv_allocator *allocator = &s->context->allocator;
+    const int has_pattern = s->method->pattern_fill != NULL;
+    const int32_t count = s->options.directions;
+    s->directions = crv__allocate(allocator, (size_t)count, 2 * sizeof(float));
+    s->noise = crv__allocate(allocator, noise_count(s), sizeof *s->noise);
+    uint32_t *scratch = crv__allocate(allocator, noise_count(s), sizeof *scratch);
+    if (has_pattern)
+        s->pattern = crv__allocate(allocator, pattern_count(s), 4 * sizeof(float));
+    const int done = s->directions && s->noise && scratch && (s->pattern || !has_pattern);
     if (done) {
         for (int32_t k = 0; k < count; k++) {
-            plan->directions[2 * k] = (float)cos(2 * PI * k / count);
-            plan->directions[2 * k + 1] = (float)sin(2 * PI * k / count);
+            s->directions[2 * k] = (float)cos(2 * PI * k / count);
+            s->directions[2 * k + 1] = (float)sin(2 * PI * k / count);
         }
-        if (method->pattern_fill)
-            method->pattern_fill(&plan->options, plan->pattern);
-        crv__noise_fill(plan->noise, plan->options.noise_size,
-                        method->pattern_fill ? 2 * PI : 2 * PI / count,
-                        plan->options.seed, scratch);
+        if (has_pattern)
+            s->method->pattern_fill(&s->options, s->pattern);
+        crv__noise_fill(s->noise, s->options.noise_size,
+                        has_pattern ? 2 * PI : 2 * PI / count, s->options.seed, scratch);
     }
-    crv__release(allocator, scratch, noise_count(plan), sizeof *scratch);
+    crv__release(allocator, scratch, noise_count(s), sizeof *scratch);
     return done ? 0 : -1;
 }
 
@@ -119,18 +111,18 @@ static int32_t least(int32_t a, int32_t b)
 static int create_planes(crv_plan *plan)
 {
     const crv_allocator *allocator = &plan->context->allocator;
-    const crv_gbuffer_desc *d = &plan->desc;
-    const int32_t reach =
-        plan->options.filter ? crv__filter_of(plan->options.filter)->reach_px : 0;
+    const crv_gbuffer_desc *d = &plan->setup.desc;
+    const crv__filter *filter = plan->setup.filter;
+    const int32_t reach = filter ? filter->reach_px : 0;
     const int32_t x0 = d->guard_left - least(d->guard_left, reach);
     const int32_t y0 = d->guard_top - least(d->guard_top, reach);
     const int32_t x1 = d->width - d->guard_right + least(d->guard_right, reach);
     const int32_t y1 = d->height - d->guard_bottom + least(d->guard_bottom, reach);
-    if (crv__plane_create(&plan->estimate, allocator, x0, y0, x1 - x0, y1 - y0))
+    if (crv__plane_create(&plan->planes[0], allocator, x0, y0, x1 - x0, y1 - y0))
         return -1;
-    if (!plan->options.filter)
+    if (!filter)
         return 0;
-    return crv__plane_create(&plan->spare, allocator, x0, y0, x1 - x0, y1 - y0);
+    return crv__plane_create(&plan->planes[1], allocator, x0, y0, x1 - x0, y1 - y0);
 }
 
 /* Methods that ask what is inside see nothing of a further surface unless they know or
@@ -166,13 +158,21 @@ crv_status crv_plan_create(crv_context *context, const crv_options *options,
     crv_plan *plan = crv__allocate(&context->allocator, 1, sizeof *plan);
     if (plan) {
         plan->context = context;
-        plan->backend = &crv__cpu_backend;
-        plan->options = *options;
-        plan->desc = *desc;
+        plan->setup = (crv__setup){.context = context,
+                                   .method = crv__method_of(options->method),
+                                   .options = *options,
+                                   .desc = *desc};
+        if (options->filter)
+            plan->setup.filter = crv__filter_of(options->filter);
         fill_params(plan);
-        if (fill_patterns(plan) == 0 && create_planes(plan) == 0) {
-            *out = plan;
-            return CRV_OK;
+        if (fill_patterns(&plan->setup) == 0 && create_planes(plan) == 0) {
+            status = context->backend->plan_create(&plan->setup, &plan->planes[0],
+                                                   &plan->state);
+            if (status == CRV_OK)
+                *out = plan;
+            else
+                crv_plan_destroy(plan);
+            return status;
         }
         crv_plan_destroy(plan);
     }
@@ -185,12 +185,15 @@ void crv_plan_destroy(crv_plan *plan)
     if (!plan)
         return;
     const crv_allocator *allocator = &plan->context->allocator;
-    crv__plane_destroy(&plan->estimate, allocator);
-    crv__plane_destroy(&plan->spare, allocator);
-    crv__release(allocator, plan->noise, noise_count(plan), sizeof *plan->noise);
-    crv__release(allocator, plan->directions, (size_t)plan->options.directions,
+    crv__setup *s = &plan->setup;
+    if (plan->state)
+        plan->context->backend->plan_destroy(s, plan->state);
+    crv__plane_destroy(&plan->planes[0], allocator);
+    crv__plane_destroy(&plan->planes[1], allocator);
+    crv__release(allocator, s->noise, noise_count(s), sizeof *s->noise);
+    crv__release(allocator, s->directions, (size_t)s->options.directions,
                  2 * sizeof(float));
-    crv__release(allocator, plan->pattern, pattern_count(plan), 4 * sizeof(float));
+    crv__release(allocator, s->pattern, pattern_count(s), 4 * sizeof(float));
     crv__release(allocator, plan, 1, sizeof *plan);
 }
 
@@ -206,7 +209,7 @@ static int same_desc(const crv_gbuffer_desc *a, const crv_gbuffer_desc *b)
 static crv_status check_image(const crv_plan *plan, const char *what,
                               const crv_image *image, int writes)
 {
-    const crv_gbuffer_desc *d = &plan->desc;
+    const crv_gbuffer_desc *d = &plan->setup.desc;
     return crv__image_check(&plan->context->logger, what, image,
                             d->width - d->guard_left - d->guard_right,
                             d->height - d->guard_top - d->guard_bottom, 1, writes);
@@ -216,7 +219,7 @@ static crv_status check_image(const crv_plan *plan, const char *what,
  * that is not there leaves everything outside. */
 static void select_characteristic(crv_plan *plan, int32_t has_field)
 {
-    const crv_characteristic wanted = plan->options.characteristic;
+    const crv_characteristic wanted = plan->setup.options.characteristic;
     plan->params.use_depth = wanted != CRV_CHARACTERISTIC_FIELD;
     plan->params.use_field = wanted != CRV_CHARACTERISTIC_DEPTH && has_field;
 }
@@ -227,7 +230,7 @@ static crv_status begin(crv_plan *plan, crv_gbuffer *g, const crv_image *result,
 {
     if (!plan || !g)
         return CRV_ERROR_INVALID_ARGUMENT;
-    if (g->context != plan->context || !same_desc(&g->desc, &plan->desc))
+    if (g->context != plan->context || !same_desc(&g->desc, &plan->setup.desc))
         return crv__fail(&plan->context->logger, CRV_ERROR_INVALID_ARGUMENT,
                          "plan: the G-buffer was made with another desc or context");
     crv_status status = check_image(plan, "result", result, 1);
@@ -239,45 +242,53 @@ static crv_status begin(crv_plan *plan, crv_gbuffer *g, const crv_image *result,
     *frame = (crv__frame){.params = &plan->params,
                           .depth = g->depth,
                           .normal = g->normal,
-                          .noise = plan->noise,
-                          .directions = plan->directions,
-                          .pattern = plan->pattern,
+                          .noise = plan->setup.noise,
+                          .directions = plan->setup.directions,
+                          .pattern = plan->setup.pattern,
                           .field = g->has_field ? &g->field : NULL};
     select_characteristic(plan, g->has_field);
     return CRV_OK;
 }
 
-/* Filters the estimate and copies the rectangle inside the guard band to the result. */
-static void finish(crv_plan *plan, const crv__work *work, const crv_image *result)
+typedef struct copy_job {
+    const crv_plan *plan;
+    const crv__plane *from;
+    const crv_image *to;
+} copy_job;
+
+static void copy_row(void *data, uint32_t index)
 {
-    const crv__plane *current = &plan->estimate, *next = &plan->spare;
-    if (plan->options.filter) {
-        const crv__filter *filter = crv__filter_of(plan->options.filter);
-        for (int32_t pass = 0; pass < filter->passes; pass++) {
-            plan->backend->filter(work, filter, pass, current, next);
-            const crv__plane *swap = current;
-            current = next;
-            next = swap;
-        }
+    const copy_job *job = data;
+    const crv_gbuffer_desc *d = &job->plan->setup.desc;
+    const int32_t y = (int32_t)index;
+    const float *row = crv__plane_at(job->from, d->guard_left, d->guard_top + y);
+    if (job->to->pixel_stride == sizeof(float)) {
+        memcpy(crv_image_at(job->to, 0, y, 0), row,
+               (size_t)job->to->width * sizeof(float));
+        return;
     }
-    for (int32_t y = 0; y < result->height; y++) {
-        const float *row =
-            crv__plane_at(current, plan->desc.guard_left, plan->desc.guard_top + y);
-        for (int32_t x = 0; x < result->width; x++)
-            *crv_image_at(result, x, y, 0) = row[x];
-    }
+    for (int32_t x = 0; x < job->to->width; x++)
+        *crv_image_at(job->to, x, y, 0) = row[x];
+}
+
+/* Runs the plan and copies the rectangle inside the guard band to the result. */
+static crv_status finish(crv_plan *plan, const crv__frame *frame, int filter_only,
+                         const crv_image *result)
+{
+    const crv__work work = {&plan->setup, plan->state, frame};
+    copy_job job = {.plan = plan, .to = result};
+    crv_status status =
+        plan->context->backend->run(&work, filter_only, plan->planes, &job.from);
+    if (status == CRV_OK)
+        crv__run_parallel(plan->context, (uint32_t)result->height, copy_row, &job);
+    return status;
 }
 
 crv_status crv_plan_run(crv_plan *plan, crv_gbuffer *gbuffer, const crv_image *result)
 {
     crv__frame frame;
     crv_status status = begin(plan, gbuffer, result, &frame);
-    if (status)
-        return status;
-    const crv__work work = {plan->context, &frame};
-    plan->backend->estimate(&work, crv__method_of(plan->options.method), &plan->estimate);
-    finish(plan, &work, result);
-    return CRV_OK;
+    return status ? status : finish(plan, &frame, 0, result);
 }
 
 crv_status crv_plan_filter(crv_plan *plan, crv_gbuffer *gbuffer, const crv_image *input,
@@ -291,19 +302,18 @@ crv_status crv_plan_filter(crv_plan *plan, crv_gbuffer *gbuffer, const crv_image
         return status;
     /* Outside the given image the estimate's margin holds nothing: NaN, which filters
      * leave out. */
-    for (int32_t y = 0; y < plan->estimate.height; y++) {
-        for (int32_t x = 0; x < plan->estimate.width; x++)
-            plan->estimate.data[y * plan->estimate.pitch + x] = NAN;
+    const crv__plane *estimate = &plan->planes[0];
+    for (int32_t y = 0; y < estimate->height; y++) {
+        for (int32_t x = 0; x < estimate->width; x++)
+            estimate->data[y * estimate->pitch + x] = NAN;
     }
     for (int32_t y = 0; y < input->height; y++) {
-        float *row = crv__plane_at(&plan->estimate, plan->desc.guard_left,
-                                   plan->desc.guard_top + y);
+        float *row = crv__plane_at(estimate, plan->setup.desc.guard_left,
+                                   plan->setup.desc.guard_top + y);
         for (int32_t x = 0; x < input->width; x++) {
             const float a = *crv_image_at(input, x, y, 0);
             row[x] = isfinite(a) ? a : 1;
         }
     }
-    const crv__work work = {plan->context, &frame};
-    finish(plan, &work, result);
-    return CRV_OK;
+    return finish(plan, &frame, 1, result);
 }

@@ -150,8 +150,9 @@ static const arg camera_rows[] = {
 };
 static const arg_table camera_table = ARG_TABLE("Camera", camera_rows);
 
-static const arg_table *const tables[] = {
-    &file_table, &pass_table, &camera_table, &args_threads, &args_output_lines, NULL};
+static const arg_table *const tables[] = {&file_table,   &pass_table,  &camera_table,
+                                          &args_threads, &args_device, &args_output_lines,
+                                          NULL};
 
 static const char *const examples[] = {
     "a frame whose camera was 60 degrees high",

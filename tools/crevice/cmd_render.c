@@ -52,8 +52,8 @@ static const arg render_rows[] = {
 static const arg_table render_table = ARG_TABLE("Pictures", render_rows);
 
 static const arg_table *const tables[] = {
-    &render_table, &lighting_table, &relief_table,      &view_camera,
-    &view_buffers, &args_threads,   &args_output_lines, NULL};
+    &render_table, &lighting_table, &relief_table,      &view_camera, &view_buffers,
+    &args_threads, &args_device,    &args_output_lines, NULL};
 
 static const char *const examples[] = {
     "ambient occlusion of a mesh, framed by itself",

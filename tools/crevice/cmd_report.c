@@ -92,8 +92,8 @@ static const arg study_rows[] = {
 };
 static const arg_table study_table = ARG_TABLE("What is measured", study_rows);
 
-static const arg_table *const tables[] = {&file_table, &study_table, &args_threads,
-                                          &args_output_lines, NULL};
+static const arg_table *const tables[] = {&file_table,  &study_table,       &args_threads,
+                                          &args_device, &args_output_lines, NULL};
 
 static const char *const examples[] = {
     "the built-in views",
@@ -163,6 +163,10 @@ static void describe_command(const report_settings *s, text *out)
               s->rays.value);
     if (s->common.threads.value > 0)
         text_addf(out, " --threads %d", s->common.threads.value);
+    if (s->common.isa.value > 0)
+        text_addf(out, " --isa %s", crv_isa_name((crv_isa)(s->common.isa.value - 1)));
+    if (s->common.exact)
+        text_add(out, " --exact");
 }
 
 static int write_introduction(const report_settings *settings, study *s)
@@ -276,8 +280,10 @@ static size_t room_wanted(const report_settings *s)
 static int run(const void *settings_, report *r)
 {
     const report_settings *settings = settings_;
-    study s = {
-        .r = r, .threads = settings->common.threads.value, .rays = settings->rays.value};
+    study s = {.r = r,
+               .common = &settings->common,
+               .threads = settings->common.threads.value,
+               .rays = settings->rays.value};
     views_list views = {0};
     int result = check(settings, r);
 

@@ -1,19 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 #include "estimate.h"
 
+#include "device.h"
+
 #include <stdio.h>
 #include <string.h>
 
 int estimate_open(estimator *e, const common_settings *common, report *r)
 {
-    crv_context_desc desc;
-
     *e = (estimator){0};
-    crv_context_desc_init(&desc, sizeof desc);
-    desc.logger = r->logger;
-    desc.threads = common->threads.value;
-    return report_ok(r, crv_context_create(&desc, &e->context), "context") ? EXIT_DONE
-                                                                           : EXIT_FAILED;
+    return device_context(common, &r->logger, r, &e->context);
 }
 
 static bool same_desc(const crv_gbuffer_desc *a, const crv_gbuffer_desc *b)

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "groove.h"
 
+#include "device.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -69,22 +71,19 @@ static int upload(study *s, groove *g, const crv_camera *camera, float *planes)
 
 static int make_gbuffer(study *s, groove *g, int32_t px_per_radius)
 {
-    crv_context_desc context;
     crv_camera camera;
     int32_t guard = px_per_radius + 2;
     float *planes;
     int code;
 
-    crv_context_desc_init(&context, sizeof context);
-    context.logger = s->r->logger;
-    context.threads = s->threads;
     crv_gbuffer_desc_init(&g->desc, sizeof g->desc, g->columns + 2 * guard,
                           GROOVE_ROWS + 2 * guard);
     g->desc.guard_left = g->desc.guard_right = guard;
     g->desc.guard_top = g->desc.guard_bottom = guard;
-    if (!report_ok(s->r, crv_context_create(&context, &g->context), "context")
-        || !report_ok(s->r, crv_gbuffer_create(g->context, &g->desc, &g->gbuffer),
-                      "groove"))
+    code = device_context(s->common, &s->r->logger, s->r, &g->context);
+    if (code != EXIT_DONE)
+        return code;
+    if (!report_ok(s->r, crv_gbuffer_create(g->context, &g->desc, &g->gbuffer), "groove"))
         return EXIT_FAILED;
     camera = crv_camera_orthographic(g->desc.width, g->desc.height,
                                      (float)g->desc.height / (float)px_per_radius);

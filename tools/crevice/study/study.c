@@ -7,24 +7,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "device.h"
 #include "study_cache.h"
 
 int study_open(study *s)
 {
-    crv_context_desc desc;
-
-    crv_context_desc_init(&desc, sizeof desc);
     /* Filters come and go in a study; that their options are then unused is no news. */
     s->quiet_logger = report_errors_only(s->r);
-    desc.logger = s->quiet_logger;
-    desc.threads = s->threads;
     s->started = report_seconds();
     s->results = cJSON_CreateObject();
     if (s->results == NULL)
         return report_no_memory(s->r);
-    return report_ok(s->r, crv_context_create(&desc, &s->context), "context")
-               ? EXIT_DONE
-               : EXIT_FAILED;
+    return device_context(s->common, &s->quiet_logger, s->r, &s->context);
 }
 
 void study_close(study *s)

@@ -9,6 +9,7 @@
 
 #include <cjson/cJSON.h>
 
+#include "args.h"
 #include "metrics.h"
 #include "metrics_fit.h"
 #include "page.h"
@@ -54,8 +55,9 @@ typedef struct study {
     study_view *views;
     int32_t view_count;
     study_view *main; /* the view that the papers' statements are measured on */
-    int32_t threads;  /* 0: all */
-    int32_t rays;     /* of the references, for each pixel at most */
+    const common_settings *common; /* the device; the caller owns them */
+    int32_t threads;               /* 0: all */
+    int32_t rays;                  /* of the references, for each pixel at most */
     crv_context *context;
     double started;          /* on the clock of report_seconds() */
     crv_logger quiet_logger; /* errors only */

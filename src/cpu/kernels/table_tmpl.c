@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT */
+/* The kernels of this instruction set. */
+#include "cpu/kernels/kernel.h"
+#include "cpu/simd/vector.h"
+
+#define CRV__ESTIMATE(name)                                                              \
+    void CRV__NAME(name)(const crv__frame *, int32_t, int32_t, int32_t, float *);
+#define CRV__FILTER(name)                                                                \
+    void CRV__NAME(name)(const crv__frame *, const crv__plane *, int32_t, int32_t,       \
+                         int32_t, int32_t, float *);
+#include "cpu/kernels/list.h"
+#undef CRV__ESTIMATE
+#undef CRV__FILTER
+
+static const crv__named_estimate ESTIMATES[] = {
+#define CRV__ESTIMATE(name) {#name, CRV__NAME(name)},
+#define CRV__FILTER(name)
+#include "cpu/kernels/list.h"
+#undef CRV__ESTIMATE
+#undef CRV__FILTER
+    {0}};
+
+static const crv__named_filter FILTERS[] = {
+#define CRV__ESTIMATE(name)
+#define CRV__FILTER(name) {#name, CRV__NAME(name)},
+#include "cpu/kernels/list.h"
+    {0}};
+
+extern const crv__kernels CRV__NAME(kernels);
+const crv__kernels CRV__NAME(kernels) = {ESTIMATES, FILTERS};

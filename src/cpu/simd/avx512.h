@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: MIT */
+/* 16 lanes: AVX-512 F, BW, DQ and VL. See vector.h. */
+#ifndef CRV_CPU_SIMD_AVX512_H
+#define CRV_CPU_SIMD_AVX512_H
+
+#include <immintrin.h>
+
+#define CRV__SIMD_NAME avx512
+#define CRV__LANES     16
+
+typedef float vf __attribute__((vector_size(64)));
+typedef int32_t vi __attribute__((vector_size(64)));
+typedef __mmask16 vm;
+
+CRV__INLINE vf vf_set(float a)
+{
+    return _mm512_set1_ps(a);
+}
+
+CRV__INLINE vi vi_set(int32_t a)
+{
+    return (vi)_mm512_set1_epi32(a);
+}
+
+CRV__INLINE vf vf_load(const float *from)
+{
+    return _mm512_loadu_ps(from);
+}
+
+CRV__INLINE void vf_store(float *to, vf a)
+{
+    _mm512_storeu_ps(to, a);
+}
+
+CRV__INLINE vi vi_load(const int32_t *from)
+{
+    return (vi)_mm512_loadu_si512(from);
+}
+
+CRV__INLINE vi vf_bits(vf a)
+{
+    return (vi)a;
+}
+
+CRV__INLINE vf vf_of_bits(vi a)
+{
+    return (vf)a;
+}
+
+CRV__INLINE vm vf_lt(vf a, vf b)
+{
+    return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ);
+}
+
+CRV__INLINE vm vf_le(vf a, vf b)
+{
+    return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ);
+}
+
+CRV__INLINE vm vi_lt(vi a, vi b)
+{
+    return _mm512_cmplt_epi32_mask((__m512i)a, (__m512i)b);
+}
+
+CRV__INLINE vm vi_eq(vi a, vi b)
+{
+    return _mm512_cmpeq_epi32_mask((__m512i)a, (__m512i)b);
+}
+
+CRV__INLINE vm vm_and(vm a, vm b)
+{
+    return (vm)(a & b);
+}
+
+CRV__INLINE vm vm_or(vm a, vm b)
+{
+    return (vm)(a | b);
+}
+
+CRV__INLINE vm vm_not(vm a)
+{
+    return (vm)~a;
+}
+
+CRV__INLINE int vm_any(vm a)
+{
+    return a != 0;
+}
+
+CRV__INLINE vf vf_select(vm mask, vf a, vf b)
+{
+    return _mm512_mask_blend_ps(mask, b, a);
+}
+
+CRV__INLINE vi vi_select(vm mask, vi a, vi b)
+{
+    return (vi)_mm512_mask_blend_epi32(mask, (__m512i)b, (__m512i)a);
+}
+
+CRV__INLINE vf vf_min(vf a, vf b)
+{
+    return _mm512_min_ps(a, b);
+}
+
+CRV__INLINE vf vf_max(vf a, vf b)
+{
+    return _mm512_max_ps(a, b);
+}
+
+CRV__INLINE vf vf_sqrt(vf a)
+{
+    return _mm512_sqrt_ps(a);
+}
+
+CRV__INLINE vf vf_floor(vf a)
+{
+    return _mm512_roundscale_ps(a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+}
+
+CRV__INLINE vf vf_fma(vf a, vf b, vf c)
+{
+    return _mm512_fmadd_ps(a, b, c);
+}
+
+CRV__INLINE vf vf_rsqrt_rough(vf a)
+{
+    return _mm512_rsqrt14_ps(a);
+}
+
+CRV__INLINE vf vf_rsqrt(vf a)
+{
+    const vf r = _mm512_rsqrt14_ps(a);
+    return r * vf_fma(a * r, r * vf_set(-0.5f), vf_set(1.5f));
+}
+
+CRV__INLINE vi vi_trunc(vf a)
+{
+    return (vi)_mm512_cvttps_epi32(a);
+}
+
+CRV__INLINE vi vi_round(vf a)
+{
+    return (vi)_mm512_cvtps_epi32(a);
+}
+
+CRV__INLINE vf vf_of(vi a)
+{
+    return _mm512_cvtepi32_ps((__m512i)a);
+}
+
+CRV__INLINE vf vf_gather(const float *base, vi index, vm mask)
+{
+    return _mm512_mask_i32gather_ps(_mm512_setzero_ps(), mask, (__m512i)index, base, 4);
+}
+
+CRV__INLINE void vf_split4(const float *from, vf out[4])
+{
+    const __m512i even =
+        _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
+    const __m512i odd = _mm512_add_epi32(even, _mm512_set1_epi32(1));
+    const vf a = vf_load(from), b = vf_load(from + 16), c = vf_load(from + 32),
+             d = vf_load(from + 48);
+    const vf ab0 = _mm512_permutex2var_ps(a, even, b),
+             ab1 = _mm512_permutex2var_ps(a, odd, b),
+             cd0 = _mm512_permutex2var_ps(c, even, d),
+             cd1 = _mm512_permutex2var_ps(c, odd, d);
+    out[0] = _mm512_permutex2var_ps(ab0, even, cd0);
+    out[1] = _mm512_permutex2var_ps(ab1, even, cd1);
+    out[2] = _mm512_permutex2var_ps(ab0, odd, cd0);
+    out[3] = _mm512_permutex2var_ps(ab1, odd, cd1);
+}
+
+CRV__INLINE void vf_join4(float *to, const vf in[4])
+{
+    const __m512i low =
+        _mm512_setr_epi32(0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
+    const __m512i high = _mm512_add_epi32(low, _mm512_set1_epi32(8));
+    const vf even0 = _mm512_permutex2var_ps(in[0], low, in[2]),
+             even1 = _mm512_permutex2var_ps(in[0], high, in[2]),
+             odd0 = _mm512_permutex2var_ps(in[1], low, in[3]),
+             odd1 = _mm512_permutex2var_ps(in[1], high, in[3]);
+    vf_store(to, _mm512_permutex2var_ps(even0, low, odd0));
+    vf_store(to + 16, _mm512_permutex2var_ps(even0, high, odd0));
+    vf_store(to + 32, _mm512_permutex2var_ps(even1, low, odd1));
+    vf_store(to + 48, _mm512_permutex2var_ps(even1, high, odd1));
+}
+
+#endif

@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: MIT */
+/* device.h: what the estimators run on, as the arguments of args_device choose. */
+#ifndef TOOL_DEVICE_H
+#define TOOL_DEVICE_H
+
+#include "args.h"
+
+/* A context with the logger; the caller destroys it. EXIT_USAGE with an error line where
+ * this machine lacks what was asked for. */
+int device_context(const common_settings *common, const crv_logger *logger, report *r,
+                   crv_context **out);
+
+#endif
