@@ -32,7 +32,7 @@ CRV__INLINE horizon trace_horizon(const crv__frame *f, crv__shape shape,
         const vf scale = vf_set(1) / vf_sqrt(along_t * along_t + along_n * along_n);
         const vf height = along_n * scale;
         raise = vm_and(raise, vf_lt(result.height, height));
-        const vf distance = crv__v3_length(squared);
+        const vf distance = vf_sqrt(squared);
         if (p->growing_sphere)
             raise = vm_and(raise, vf_le(distance, vf_set((float)i) * step));
         if (!vm_any(raise))

@@ -8,12 +8,6 @@
 
 #include "cpu/kernels/lanes.h"
 
-/* crv__length(): relative error < 1e-6, so not for positions. */
-CRV__INLINE vf crv__v3_length(vf squared)
-{
-    return vf_where(vf_lt(vf_zero(), squared), squared * vf_rsqrt(squared));
-}
-
 CRV__INLINE void crv__lanes_tangents(crv__v3 n, crv__v3 *t, crv__v3 *b)
 {
     const vf one = vf_set(1);
@@ -187,9 +181,8 @@ CRV__INLINE vf crv__lanes_march(const crv__frame *f, crv__shape shape,
         if (!vm_any(open))
             break;
     }
-    /* Infinitely far is beyond the radius, where the weight is 0. */
-    const vf q = crv__v3_length(vf_min(nearest, vf_set(1e30f))) * vf_set(p->inv_radius);
-    return vf_where(vf_lt(nearest, vf_set(INFINITY)), crv__lanes_falloff(p, q));
+    return vf_where(vf_lt(nearest, vf_set(INFINITY)),
+                    crv__lanes_falloff(p, vf_sqrt(nearest) * vf_set(p->inv_radius)));
 }
 
 #endif

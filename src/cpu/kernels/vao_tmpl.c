@@ -56,16 +56,19 @@ CRV__INLINE pipes pipes_through(const crv__params *p, crv__shape shape,
     const vf up = vf_of(vi_set(at->y) - pipe.v) * vf_set(p->inv_fy);
     const crv__v3 to = {s->offset.x - across * s->scale, s->offset.y - up * s->scale,
                         s->offset.z};
-    /* |t ray - to| = radius, with ray = (ray_x, ray_y, -1) */
-    vf along = -to.z, squared = vf_set(1);
+    /* |t ray - to| = radius with ray = (ray_x, ray_y, -1), about the point nearest to the
+     * centre: on the way there and back much may cancel. */
+    vf middle = -to.z, inverse = vf_set(1);
+    crv__v3 miss = {to.x, to.y, vf_zero()};
     if (!shape.orthographic) {
         const vf ray_x = s->ray_x + across, ray_y = s->ray_y + up;
-        squared = vf_fma(ray_x, ray_x, vf_fma(ray_y, ray_y, squared));
-        along = vf_fma(to.x, ray_x, vf_fma(to.y, ray_y, along));
+        inverse = inverse / vf_fma(ray_x, ray_x, vf_fma(ray_y, ray_y, inverse));
+        middle = vf_fma(to.x, ray_x, vf_fma(to.y, ray_y, middle)) * inverse;
+        miss = (crv__v3){vf_fma(-middle, ray_x, to.x), vf_fma(-middle, ray_y, to.y),
+                         to.z + middle};
     }
-    const vf inverse = vf_set(1) / squared, middle = along * inverse;
-    const vf length2 = vf_fma(to.x, to.x, vf_fma(to.y, to.y, to.z * to.z));
-    const vf rest = vf_fma(along, middle, s->radius * s->radius - length2);
+    const vf miss2 = vf_fma(miss.x, miss.x, vf_fma(miss.y, miss.y, miss.z * miss.z));
+    const vf rest = s->radius * s->radius - miss2;
     const vf half = vf_sqrt(vf_max(rest, zero) * inverse);
     pipe.entry = at->depth + (middle - half);
     pipe.exit = at->depth + (middle + half);

@@ -11,7 +11,7 @@ typedef struct chords {
 
 CRV__INLINE vf open_part(crv__shape shape, vf d, vf z, vf half)
 {
-    const vf behind = shape.orthographic ? z - d : d - d * d / z;
+    const vf behind = shape.orthographic ? z - d : d - d * (d / z);
     const vf part = vf_min(vf_max(behind, -half), half) + half;
     return vf_select(vf_lt(z, vf_set(INFINITY)), part, half + half);
 }
@@ -39,7 +39,10 @@ CRV__INLINE vf accessibility(const crv__frame *f, crv__shape shape, const crv__p
     const vf unit = shape.orthographic ? one : at->depth;
     const vf radius_x = vf_set(p->radius * p->fx) / unit;
     const vf radius_y = vf_set(p->radius * p->fy) / unit;
-    const vf inverse_x = one / radius_x, inverse_y = one / radius_y;
+    /* Radii too small for a reciprocal reach the pixel's own texel only. */
+    const vf least = vf_set(1e-30f);
+    const vf inverse_x = one / vf_max(radius_x, least);
+    const vf inverse_y = one / vf_max(radius_y, least);
     const vi y = vi_set(at->y), width = vi_set(p->width), height = vi_set(p->height);
     vf open = zero, total = zero;
     for (int32_t i = 0; i < p->samples; i++) {

@@ -16,8 +16,8 @@
  *   vf_select vi_select      first where the mask is set, else second
  *   vf_min vf_max            the second argument where either is a NaN
  *   vf_sqrt vf_floor vf_fma  exact; fma rounds twice where the set has none
- *   vf_rsqrt                 1/sqrt, relative error < 1e-6
- *   vf_rsqrt_rough           relative error < 4e-4; infinite at 0 or NaN
+ *   vf_rsqrt                 1/sqrt, relative error < 1e-6; not for denormal numbers
+ *   vf_rsqrt_rough           relative error < 4e-4; at 0 infinite or a NaN
  *   vi_trunc vi_round vf_of  conversions; the value must fit
  *   vi_floor                 rounded down; negative or INT32_MAX where it does not fit or
  *                            is a NaN
