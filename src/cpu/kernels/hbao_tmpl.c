@@ -83,8 +83,8 @@ CRV__INLINE vf accessibility(const crv__frame *f, crv__shape shape, const crv__p
             in = vm_and(in, vm_not(vm_and(vi_eq(u, at->x), vi_eq(v, y))));
             if (!vm_any(in))
                 continue;
-            const vf offset_x = vf_of(u - at->x) * vf_set(p->inv_fx);
-            const vf offset_y = vf_of(y - v) * vf_set(p->inv_fy);
+            const vf offset_x = vf_of(vi_sub(u, at->x)) * vf_set(p->inv_fx);
+            const vf offset_y = vf_of(vi_sub(y, v)) * vf_set(p->inv_fy);
             for (int32_t layer = 0; layer < shape.layers; layer++) {
                 const vf depth = crv__lanes_read(&f->depth[layer], u, v, in);
                 const vm there = vm_and(in, vf_lt(depth, vf_set(INFINITY)));

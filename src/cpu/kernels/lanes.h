@@ -76,10 +76,11 @@ CRV__INLINE crv__v3 crv__lanes_unproject(const crv__params *p, vi x, vi y, vf d)
                                    d);
 }
 
-/* Where a plane that holds all buffers' pixels has those texels. */
+/* Where a plane that holds all buffers' pixels has those texels; any number where they
+ * are outside. */
 CRV__INLINE vi crv__lanes_index(const crv__plane *plane, vi u, vi v)
 {
-    return v * vi_set((int32_t)plane->pitch) + u;
+    return vi_add(vi_mul(v, vi_set((int32_t)plane->pitch)), u);
 }
 
 /* Texels of a plane that holds all buffers' pixels. u, v: inside where the mask is set.

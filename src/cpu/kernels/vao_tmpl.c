@@ -52,8 +52,8 @@ CRV__INLINE pipes pipes_through(const crv__params *p, crv__shape shape,
         pipe.in = vm_and(
             pipe.in, vm_and(vm_and(vf_lt(vf_abs(sx), far_px), vf_lt(vf_abs(sy), far_px)),
                             vf_lt(zero, s->unit)));
-    const vf across = vf_of(pipe.u - at->x) * vf_set(p->inv_fx);
-    const vf up = vf_of(vi_set(at->y) - pipe.v) * vf_set(p->inv_fy);
+    const vf across = vf_of(vi_sub(pipe.u, at->x)) * vf_set(p->inv_fx);
+    const vf up = vf_of(vi_sub(vi_set(at->y), pipe.v)) * vf_set(p->inv_fy);
     const crv__v3 to = {s->offset.x - across * s->scale, s->offset.y - up * s->scale,
                         s->offset.z};
     /* |t ray - to| = radius with ray = (ray_x, ray_y, -1), about the point nearest to the

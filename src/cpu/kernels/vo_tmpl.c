@@ -49,7 +49,7 @@ CRV__INLINE vf accessibility(const crv__frame *f, crv__shape shape, const crv__p
         vf x, up;
         crv__lanes_point(at, i, &x, &up);
         const vi du = vi_round(x * radius_x), dv = vi_round(up * radius_y);
-        const vi u = at->x + du, v = y - dv;
+        const vi u = vi_add(at->x, du), v = vi_sub(y, dv);
         const vf offset_x = vf_of(du) * inverse_x, offset_y = vf_of(dv) * inverse_y;
         const vf rest = vf_max(one - offset_x * offset_x - offset_y * offset_y, zero);
         chords c = {crv__lanes_index(&f->depth[0], u, v), at->active,

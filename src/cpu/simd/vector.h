@@ -60,6 +60,25 @@ CRV__INLINE vi vi_iota(void)
     return vi_load(COUNT);
 }
 
+/* a + b, a - b and a * b where they may not fit: modulo 2^32, as + - * on vi do in fact
+ * but not in C. */
+typedef uint32_t crv__vu __attribute__((vector_size(4 * CRV__LANES)));
+
+CRV__INLINE vi vi_add(vi a, vi b)
+{
+    return (vi)((crv__vu)a + (crv__vu)b);
+}
+
+CRV__INLINE vi vi_sub(vi a, vi b)
+{
+    return (vi)((crv__vu)a - (crv__vu)b);
+}
+
+CRV__INLINE vi vi_mul(vi a, vi b)
+{
+    return (vi)((crv__vu)a * (crv__vu)b);
+}
+
 /* Set in the first n lanes. */
 CRV__INLINE vm vm_first(int32_t n)
 {
