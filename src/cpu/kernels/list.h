@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* What has a kernel in every instruction set: one line each. */
+/* What has a kernel in every instruction set: one line each. FAST: see
+ * crv__fast_kind. */
 CRV__ESTIMATE(hbao)
 CRV__FILTER(bilateral13)
 CRV__FILTER(box4)
 CRV__FILTER(gauss5)
+CRV__FAST(hbao, 1, 0, 0)

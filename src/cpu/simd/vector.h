@@ -67,6 +67,16 @@ CRV__INLINE vf vf_zero(void)
     return vf_set(0);
 }
 
+/* 1/sqrt, relative error < 7e-5. */
+CRV__INLINE vf vf_rsqrt_fair(vf a)
+{
+#ifdef CRV__ROUGH_IS_FAIR
+    return vf_rsqrt_rough(a);
+#else
+    return vf_rsqrt(a);
+#endif
+}
+
 /* a where the mask is set, else 0. */
 CRV__INLINE vf vf_where(vm mask, vf a)
 {
