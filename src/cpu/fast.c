@@ -143,14 +143,21 @@ void crv__fast_destroy(const crv__setup *setup, crv__fast_state *s)
     crv__release(allocator, s, 1, sizeof *s);
 }
 
-/* Half the width of a bucket above its lower end. */
-static float radius_of(int32_t bucket)
+static float radius_of_bits(uint32_t bucket)
 {
-    const uint32_t bits = ((uint32_t)(bucket + CRV__FAST_FIRST) << CRV__FAST_SHIFT)
-                          + (1u << (CRV__FAST_SHIFT - 1));
+    const uint32_t bits = bucket << CRV__FAST_SHIFT;
     float radius;
     memcpy(&radius, &bits, sizeof radius);
     return radius;
+}
+
+/* The projected radius, before the phase's scale, in the middle of the depths that share
+ * this bucket. */
+static float radius_of(int32_t bucket)
+{
+    const uint32_t first = (uint32_t)(bucket + CRV__FAST_FIRST);
+    const float low = radius_of_bits(first), high = radius_of_bits(first + 1);
+    return 2 * low * high / (low + high);
 }
 
 /* Fills a sample and its place for the step (du, dv) in pixels from a pixel of phase px.

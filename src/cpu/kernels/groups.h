@@ -79,24 +79,22 @@ CRV__INLINE crv__fast_list crv__fast_list_at(const crv__fast *fast, const crv__f
     return list;
 }
 
-/* The group's bucket that serves the most lanes of those left: the lowest one left, or
- * the one above where lanes within one of it are there too. A bucket serves its two
- * neighbours as well. Returns its lowest bucket that is served, *served how many. */
-CRV__INLINE int32_t crv__fast_choose(const int32_t *buckets, int32_t from,
-                                     int32_t *chosen, int32_t *next)
+/* A bucket for the lanes from bucket `low` on, which is the lowest of those left, and how
+ * high its lanes may be: three buckets share the middle one, two the one that has more
+ * lanes. *next: the lowest bucket beyond, INT32_MAX where there is none. */
+CRV__INLINE int32_t crv__fast_choose(const int32_t *buckets, int32_t low, int32_t *high,
+                                     int32_t *next)
 {
-    int32_t low = INT32_MAX, near = 0, above = INT32_MAX;
-    for (int32_t i = 0; i < CRV__FAST_GROUP; i++)
-        low = buckets[i] >= from && buckets[i] < low ? buckets[i] : low;
-    if (low == INT32_MAX)
-        return low;
+    int32_t lowest = 0, above = 0, third = 0, beyond = INT32_MAX;
     for (int32_t i = 0; i < CRV__FAST_GROUP; i++) {
-        near |= buckets[i] == low + 1 || buckets[i] == low + 2;
-        above = buckets[i] > low + 2 && buckets[i] < above ? buckets[i] : above;
+        lowest += buckets[i] == low;
+        above += buckets[i] == low + 1;
+        third |= buckets[i] == low + 2;
+        beyond = buckets[i] > low + 2 && buckets[i] < beyond ? buckets[i] : beyond;
     }
-    *chosen = low + near;
-    *next = above;
-    return low;
+    *high = low + 2;
+    *next = beyond;
+    return third || above > lowest ? low + 1 : low;
 }
 
 typedef vf (*crv__fast_method)(const crv__fast_pixels *pixels,
@@ -187,16 +185,13 @@ CRV__INLINE int crv__fast_span(const crv__frame *f, const crv__fast *fast, int32
             vf_store(result[px] + i, vf_set(1));
         far |= crv__fast_buckets(fast, p, depth, phase, buckets, inverses, &low, &high);
         while (low <= high) {
-            int32_t chosen = low, next = INT32_MAX;
-            if (high > low + 2)
-                low = crv__fast_choose(buckets, low, &chosen, &next);
-            else
-                chosen = high > low ? low + 1 : low;
+            int32_t chosen = low, top = low, next = INT32_MAX;
+            if (high > low)
+                chosen = crv__fast_choose(buckets, low, &top, &next);
             const crv__fast_list list =
                 crv__fast_list_at(fast, f, chosen, phase, y, m, places);
-            crv__fast_pass(&at, &list, depth, inverses, buckets, low,
-                           chosen > low ? low + 2 : low, x + px, n, row, result[px],
-                           method);
+            crv__fast_pass(&at, &list, depth, inverses, buckets, low, top, x + px, n, row,
+                           result[px], method);
             low = next;
         }
     }
