@@ -43,9 +43,10 @@ static int measure(crv__fast_state *s, const crv__setup *setup)
     const crv_gbuffer_desc *d = &setup->desc;
     const crv_options *o = &setup->options;
     const int32_t is_walk = s->kind->is_walk;
-    fast->paired = is_walk && o->directions % 2 == 0;
-    fast->walks = is_walk ? o->directions / (1 + fast->paired) : 1;
-    fast->steps = is_walk ? o->steps : o->samples;
+    const int32_t count = is_walk ? o->directions : o->samples;
+    fast->paired = s->kind->in_pairs && count % 2 == 0;
+    fast->walks = is_walk ? count / (1 + fast->paired) : 1;
+    fast->steps = is_walk ? o->steps : count / (1 + fast->paired);
     fast->buckets = OCTAVES * 4;
     fast->left = wrapped((int64_t)d->origin_x - d->guard_left, CRV__FAST_SPAN);
     fast->top = wrapped((int64_t)d->origin_y - d->guard_top, CRV__FAST_PHASES);
@@ -202,7 +203,7 @@ static void extend(crv__fast_reach *reach, const crv__fast_place *place)
 }
 
 /* The step to sample i of walk k in pixels, to the right and down, as the methods have
- * it; radii in pixels. */
+ * it, or, without walks, to point i; radii in pixels. */
 static void step_to(const crv__fast_kind *kind, const crv__frame *f,
                     const crv__noise_texel *noise, int32_t k, int32_t i, float radius_x,
                     float radius_y, float step[2])
@@ -242,8 +243,9 @@ static void fill_list(const fill_job *job, uint32_t index)
         uint16_t count = 0;
         for (int32_t i = 0; i < fast->steps; i++) {
             float step[2];
-            step_to(kind, job->frame, noise, k, i, radius * (p->fx * p->inv_fy), radius,
-                    step);
+            step_to(kind, job->frame, noise, k,
+                    kind->is_walk ? i : i * (1 + fast->paired),
+                    radius * (p->fx * p->inv_fy), radius, step);
             if (!kind->keeps_own && step[0] == 0 && step[1] == 0)
                 continue;
             crv__fast_place *place = &fast->places[first + count];

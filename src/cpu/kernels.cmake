@@ -2,7 +2,8 @@
 # The kernels, compiled once per instruction set that the compiler and the target have.
 set(crevice_kernel_sources
     cpu/kernels/table_tmpl.c cpu/kernels/hbao_tmpl.c
-    cpu/kernels/deal_tmpl.c cpu/kernels/hbao_fast_tmpl.c
+    cpu/kernels/deal_tmpl.c cpu/kernels/alchemy_fast_tmpl.c cpu/kernels/hbao_fast_tmpl.c
+    cpu/kernels/vo_fast_tmpl.c
     cpu/kernels/bilateral13_tmpl.c cpu/kernels/box4_tmpl.c cpu/kernels/gauss5_tmpl.c)
 
 function(crevice_kernels set)

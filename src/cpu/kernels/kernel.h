@@ -26,13 +26,14 @@ typedef struct crv__named_filter {
     crv__filter_kernel run;
 } crv__named_filter;
 
-/* A method's kernel in the fast structure, and its samples: walks of steps in directions,
- * or the points of a pattern; steps rounded to even, not half up; those to the pixel
- * itself kept. 0 or 1 each. */
+/* A method's kernel in the fast structure, and its samples. 0 or 1 each: walks of steps
+ * in directions, not the points of a pattern; an even number of directions or points
+ * comes in opposite pairs; steps are rounded to even, not half up; those to the pixel
+ * itself are kept. */
 typedef struct crv__fast_kind {
     const char *name;
     crv__fast_kernel run;
-    int32_t is_walk, is_rounded, keeps_own;
+    int32_t is_walk, in_pairs, is_rounded, keeps_own;
 } crv__fast_kind;
 
 typedef struct crv__kernels {

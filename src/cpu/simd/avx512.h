@@ -129,6 +129,11 @@ CRV__INLINE vf vf_rsqrt_rough(vf a)
     return _mm512_rsqrt14_ps(a);
 }
 
+CRV__INLINE vf vf_rcp_rough(vf a)
+{
+    return _mm512_rcp14_ps(a);
+}
+
 CRV__INLINE vf vf_rsqrt(vf a)
 {
     const vf r = _mm512_rsqrt14_ps(a);

@@ -18,6 +18,7 @@
  *   vf_sqrt vf_floor vf_fma  exact; fma rounds twice where the set has none
  *   vf_rsqrt                 1/sqrt, relative error < 1e-6
  *   vf_rsqrt_rough           relative error < 4e-4; infinite at 0 or NaN
+ *   vf_rcp_rough             1/a, relative error < 4e-4
  *   vi_trunc vi_round vf_of  conversions; the value must fit
  *   vf_gather                base[index]; 0 and no access where the mask is clear, though
  *                            base[0] may be read
