@@ -9,7 +9,7 @@
 
 /* Tiles are small enough that a picture gives every thread many, and wide enough that
  * rows of depth are read along the cache line. */
-enum { TILE_WIDTH = 128, TILE_HEIGHT = 16, FAST_TILE_GROUPS = 2, FAST_TILE_HEIGHT = 32 };
+enum { TILE_WIDTH = 128, TILE_HEIGHT = 16, FAST_TILE_GROUPS = 4, FAST_TILE_HEIGHT = 32 };
 
 typedef struct tiles {
     const crv__work *work;

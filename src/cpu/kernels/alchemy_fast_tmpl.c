@@ -47,7 +47,7 @@ static inline __attribute__((always_inline)) vf sum_of_points(const crv__fast_pi
         vm left = vf_le(w.scale, w.scale); /* lanes with no layer within the radius yet */
         for (int32_t layer = 0; layer < layers; layer++) {
             const float *own = at->own + layer * at->fast->layer_pitch;
-            const vf depth = vf_load(own + list->places[i].offset[0]);
+            const vf depth = crv__fast_read(own + list->places[i].offset[0]);
             const vf k = vf_fma(-depth, w.scale, w.origin);
             vf squared, over;
             if (orthographic) {

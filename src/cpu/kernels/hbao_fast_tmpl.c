@@ -108,10 +108,11 @@ static inline __attribute__((always_inline)) void add_place(
         * vf_rsqrt_fair(length2);
     for (int32_t layer = 0; layer < s.layers; layer++) {
         const float *own = at->own + layer * w->layer_pitch;
-        add_sample(&walks[0], w, s, sample, vf_load(own + place->offset[0]), along, tilt);
+        add_sample(&walks[0], w, s, sample, crv__fast_read(own + place->offset[0]), along,
+                   tilt);
         if (s.paired)
-            add_sample(&walks[1], w, s, sample, vf_load(own + place->offset[1]), -along,
-                       -tilt);
+            add_sample(&walks[1], w, s, sample, crv__fast_read(own + place->offset[1]),
+                       -along, -tilt);
     }
 }
 

@@ -33,10 +33,12 @@ static inline __attribute__((always_inline)) vf sum_of_lines(const crv__fast_pix
         const vf rest = vf_fma(vf_set(-list->samples[i].squared), unit2, one);
         const vf half = vf_where(vf_lt(zero, rest), rest * vf_rsqrt_fair(rest));
         const int32_t *offset = list->places[i].offset;
-        sum = sum + behind(at, vf_load(at->own + offset[0]), half, unit, orthographic);
+        sum = sum
+              + behind(at, crv__fast_read(at->own + offset[0]), half, unit, orthographic);
         if (paired)
-            sum =
-                sum + behind(at, vf_load(at->own + offset[1]), half, unit, orthographic);
+            sum = sum
+                  + behind(at, crv__fast_read(at->own + offset[1]), half, unit,
+                           orthographic);
         total = total + half;
     }
     if (paired)
