@@ -56,6 +56,23 @@ sound frame.json methods 1 passes 12 memory 2 whole 3
 grep -q '"width":[[:space:]]*72,' frame.json || fail "the frame's width"
 grep -q 'frame.exr: has no scene' stderr.txt || fail "silent about what a frame cannot tell"
 
+# The page of docs/ is made by a script; sanitizers find nothing new in what it runs.
+if command -v python3 >/dev/null && [ -z "${TSAN_OPTIONS:-}${ASAN_OPTIONS:-}" ]; then
+    python3 "$tests/../docs/performance.py" "$tool" --brief --shared "" -o page.md \
+        --keep kept 2>stderr.txt || { cat stderr.txt >&2; fail "docs/performance.py"; }
+    for part in methods threads growth parts; do
+        [ -s kept/$part.json ] || fail "no numbers of $part"
+    done
+    sound kept/methods.json methods $((8 * (2 * sets - 1)))
+    python3 "$tests/../docs/performance.py" --from kept -o again.md --brief --shared ""
+    cmp page.md again.md || fail "another page of the same numbers"
+    [ "$(grep -c '^## ' page.md)" -eq 11 ] || fail "sections of the page"
+    # A table whose rows have other columns than its head is none.
+    awk -F '|' '/^[|]/ { if (n && NF != n) exit 1; n = NF; next } { n = 0 }' page.md ||
+        fail "a broken table"
+    ! grep -n '{\|nan\|None' page.md || fail "the page has gaps"
+fi
+
 # Views of a list, by name.
 cat >views.json <<'JSON'
 {"views": [

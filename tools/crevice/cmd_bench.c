@@ -276,6 +276,8 @@ static int describe(bench *b)
     for (int i = 0; crv_isa_name((crv_isa)i) != NULL; i++)
         if (crv_isa_available() >> i & 1)
             cJSON_AddItemToArray(sets, cJSON_CreateString(crv_isa_name((crv_isa)i)));
+    cJSON_AddNumberToObject(b->results, "repeats", b->clock.repeats);
+    cJSON_AddNumberToObject(b->results, "seconds", b->clock.seconds);
     cJSON_AddNumberToObject(b->results, "clock_ghz", b->clock.ghz);
     cJSON_AddStringToObject(b->results, "cycles_from", source);
     if (b->print)

@@ -152,15 +152,19 @@ static int not_here(const list *l, const char *word)
     return EXIT_USAGE;
 }
 
+/* The best first: sections that need one set only take the first. */
 static int take_isa(const list *l, const char *word, bench_choices *c)
 {
     const char *names[NAMES_MAX] = {"all"};
     int32_t count = 1;
     bool all = strcmp(word, "all") == 0, found = all;
 
-    for (int i = 0; crv_isa_name((crv_isa)i) != NULL; i++) {
-        names[count++] = crv_isa_name((crv_isa)i);
-        if (!all && strcmp(word, crv_isa_name((crv_isa)i)) != 0)
+    while (crv_isa_name((crv_isa)(count - 1)) != NULL) {
+        names[count] = crv_isa_name((crv_isa)(count - 1));
+        count++;
+    }
+    for (int i = count - 2; i >= 0; i--) {
+        if (!all && strcmp(word, names[i + 1]) != 0)
             continue;
         found = true;
         if (!(crv_isa_available() >> i & 1) && all)
