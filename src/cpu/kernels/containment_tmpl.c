@@ -46,9 +46,8 @@ CRV__INLINE vf accessibility(const crv__frame *f, crv__shape shape, const crv__p
 CRV__INLINE int within(const crv__frame *f, const crv__pixels *at)
 {
     const crv__params *p = f->params;
-    const crv__shape shape = {0};
-    const crv__v3 lifted = crv__lanes_lift(p, shape, at->P, at->n);
-    return crv__lanes_within(p, shape, lifted, vf_set(p->radius * 1.0001f), at->active);
+    const crv__v3 lifted = crv__lanes_lift(p, (crv__shape){0}, at->P, at->n);
+    return crv__lanes_within(p, lifted, vf_set(p->radius * 1.0001f), at->active);
 }
 
 CRV__ESTIMATE_KERNEL(containment)

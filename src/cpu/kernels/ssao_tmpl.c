@@ -23,8 +23,7 @@ CRV__INLINE vf accessibility(const crv__frame *f, crv__shape shape, const crv__p
 CRV__INLINE int within(const crv__frame *f, const crv__pixels *at)
 {
     const crv__params *p = f->params;
-    return crv__lanes_within(p, (crv__shape){0}, at->P, vf_set(p->radius * 1.0001f),
-                             at->active);
+    return crv__lanes_within(p, at->P, vf_set(p->radius * 1.0001f), at->active);
 }
 
 CRV__ESTIMATE_KERNEL(ssao)

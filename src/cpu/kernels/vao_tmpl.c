@@ -130,9 +130,8 @@ CRV__INLINE int within(const crv__frame *f, const crv__pixels *at)
 {
     const crv__params *p = f->params;
     const sphere s = sphere_at(p, (crv__shape){0}, at);
-    return crv__lanes_within(p, (crv__shape){0},
-                             (crv__v3){s.centre_x, s.centre_y, at->P.z + s.offset.z},
-                             vf_set(0.5001f * p->radius), at->active);
+    const crv__v3 centre = {s.centre_x, s.centre_y, at->P.z + s.offset.z};
+    return crv__lanes_within(p, centre, vf_set(0.5001f * p->radius), at->active);
 }
 
 CRV__ESTIMATE_KERNEL(vao)
