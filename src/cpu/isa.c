@@ -106,3 +106,12 @@ crv__filter_kernel crv__kernels_filter(const crv__kernels *kernels, const char *
     }
     return NULL;
 }
+
+const crv__fast_kind *crv__kernels_fast(const crv__kernels *kernels, const char *name)
+{
+    for (const crv__fast_kind *e = kernels ? kernels->fast : NULL; e && e->name; e++) {
+        if (strcmp(e->name, name) == 0)
+            return e;
+    }
+    return NULL;
+}

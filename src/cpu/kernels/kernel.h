@@ -3,7 +3,7 @@
 #ifndef CRV_CPU_KERNELS_KERNEL_H
 #define CRV_CPU_KERNELS_KERNEL_H
 
-#include "core/frame.h"
+#include "cpu/kernels/fast.h"
 
 /* Accessibility of the pixels x0 to x1 - 1 of row y, intensity applied, in [0, 1],
  * background 1, to out[0 .. x1 - x0). */
@@ -26,9 +26,21 @@ typedef struct crv__named_filter {
     crv__filter_kernel run;
 } crv__named_filter;
 
+/* A method's kernel in the fast structure, and its samples. 0 or 1 each: walks of steps
+ * in directions, not the points of a pattern; an even number of directions or points
+ * comes in opposite pairs; steps are rounded to even, not half up; those to the pixel
+ * itself are kept. */
+typedef struct crv__fast_kind {
+    const char *name;
+    crv__fast_kernel run;
+    int32_t is_walk, in_pairs, is_rounded, keeps_own;
+} crv__fast_kind;
+
 typedef struct crv__kernels {
     const crv__named_estimate *estimates; /* end with a NULL name */
     const crv__named_filter *filters;
+    const crv__fast_kind *fast;
+    crv__fast_deal_kernel deal;
 } crv__kernels;
 
 #endif

@@ -18,6 +18,7 @@
  *   vf_sqrt vf_floor vf_fma  exact; fma rounds twice where the set has none
  *   vf_rsqrt                 1/sqrt, relative error < 1e-6; not for denormal numbers
  *   vf_rsqrt_rough           relative error < 4e-4; at 0 infinite or a NaN
+ *   vf_rcp_rough             1/a, relative error < 4e-4
  *   vi_trunc vi_round vf_of  conversions; the value must fit
  *   vi_floor                 rounded down; negative or INT32_MAX where it does not fit or
  *                            is a NaN
@@ -93,6 +94,16 @@ CRV__INLINE vm vm_none(void)
 CRV__INLINE vf vf_zero(void)
 {
     return vf_set(0);
+}
+
+/* 1/sqrt, relative error < 7e-5. */
+CRV__INLINE vf vf_rsqrt_fair(vf a)
+{
+#ifdef CRV__ROUGH_IS_FAIR
+    return vf_rsqrt_rough(a);
+#else
+    return vf_rsqrt(a);
+#endif
 }
 
 /* a where the mask is set, else 0. */
