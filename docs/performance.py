@@ -82,7 +82,8 @@ def measure(options, folder):
               views + ["--only", "methods", "--sizes", f"{size},{hd}", "--methods",
                        ",".join(MAIN), "--filters", filters, "--isa", methods["isas"][-1],
                        "--threads-list", ",".join(threads)] + speed)
-    full = ["--full", "--presets", "medium", "--filters", "none", "--structures", "fast"]
+    # Large pictures take longer than half of the default second; they are to be repeated.
+    full = ["--seconds", "6", "--full", "--presets", "medium", "--filters", "none", "--structures", "fast"]
     run_bench(options.tool, "growth", folder,
               views[:4] + ["--only", "growth", "--sizes", size, "--isa",
                            methods["isas"][-1], "--methods",
@@ -451,10 +452,10 @@ tells how to choose. `docs/performance.py build/gcc/tools/crevice/crevice` makes
 
 def cycles_text(report):
     return {
-        "counter": "Cycles are those of the processor's counter, all threads, user code.",
+        "counter": "Cycles are those of the processor's counter, of all threads, waiting included.",
         "clock": "The processor's cycle counter cannot be read on this machine; cycles are "
                  f"processor time at {report['clock_ghz']:.2f} GHz, the clock of a chain of "
-                 "additions.",
+                 "additions, waiting threads included.",
         "none": "Cycles are not known on this machine.",
     }[report["cycles_from"]]
 

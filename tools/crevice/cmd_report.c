@@ -74,9 +74,8 @@ static const arg study_rows[] = {
      .type = ARG_TEXTS,
      .offset = offsetof(report_settings, only),
      .computed = "all",
-     .help =
-         "methods|missing|structure|hsao|hbao|alchemy|vao|closed-forms|stability; may be "
-         "given again"},
+     .help = "methods, missing, structure, hsao, hbao, alchemy, vao, closed-forms or "
+             "stability; may be given again"},
     {.name = "--size",
      .value = "WxH",
      .type = ARG_SIZE,
