@@ -43,8 +43,10 @@ CRV__INLINE pipes pipes_through(const crv__params *p, crv__shape shape,
     const vf zero = vf_zero(), far_px = vf_set(1e9f);
     vf sx = vf_set(p->fx) * (s->centre_x + x * s->radius);
     vf sy = vf_set(p->fy) * (s->centre_y + y * s->radius);
-    if (!shape.orthographic)
-        vf_quotients(sx, sy, s->unit, &sx, &sy);
+    if (!shape.orthographic) {
+        sx = sx / s->unit;
+        sy = sy / s->unit;
+    }
     sx = vf_set(p->cx) + sx;
     sy = vf_set(p->cy) - sy;
     pipes pipe = {.u = vi_floor(sx), .v = vi_floor(sy), .in = at->active};
