@@ -167,4 +167,4 @@ CRV__INLINE int within(const crv__frame *f, const crv__pixels *at)
     return crv__lanes_disk_within(f->params, at, radius_x, radius_y);
 }
 
-CRV__ESTIMATE_KERNEL(hbao)
+CRV__ESTIMATE_KERNEL(hbao, 1)
