@@ -155,6 +155,7 @@ float *fixture_compute(const fixture *f, const crv_options *options,
     crv_context_desc_init(&context_desc, sizeof context_desc);
     context_desc.logger = fixture_strict_logger();
     context_desc.threads = run->threads;
+    context_desc.exact = run->exact;
     context_desc.parallel = run->parallel;
     crv_gbuffer_desc desc;
     crv_gbuffer_desc_init(&desc, sizeof desc, f->width, f->height);

@@ -38,6 +38,12 @@ static void list_sets(uint32_t mask, char *out, size_t size)
 int device_context(const common_settings *common, const crv_logger *logger, report *r,
                    crv_context **out)
 {
+    return device_context_in(common, logger, NULL, r, out);
+}
+
+int device_context_in(const common_settings *common, const crv_logger *logger,
+                      const crv_allocator *allocator, report *r, crv_context **out)
+{
     const uint32_t available = crv_isa_available();
     crv_context_desc desc;
 
@@ -45,6 +51,8 @@ int device_context(const common_settings *common, const crv_logger *logger, repo
     desc.logger = *logger;
     desc.threads = common->threads.value;
     desc.exact = common->exact;
+    if (allocator != NULL)
+        desc.allocator = *allocator;
     if (common->isa.value > 0) {
         desc.isa_mask = 1u << (common->isa.value - 1);
         if (!(desc.isa_mask & available)) {
