@@ -60,6 +60,7 @@ typedef struct crv__fast {
 
     /* a list of samples for each bucket and phase: `walks` times at most `steps` */
     int32_t buckets, walks, steps;
+    float cap;      /* of the radius, vertically, pixels */
     float largest;  /* projected radius that has a bucket in every phase, pixels */
     int32_t paired; /* 0 or 1: every walk has one opposite to it */
     crv__fast_sample *samples;
