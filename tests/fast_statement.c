@@ -26,6 +26,7 @@ typedef struct statement {
     crv__frame frame;
     crv__noise_texel noise[16];
     float *directions, *pattern;
+    float background;  /* the depth from which on there is no surface */
     int32_t left, top; /* of the buffers' first pixel in the picture's spans and phases */
 } statement;
 
@@ -37,7 +38,7 @@ static int32_t wrapped(int32_t value, int32_t size)
 static int is_surface(const statement *s, int32_t x, int32_t y)
 {
     return x >= 0 && x < s->params.width
-           && *crv__plane_at(&s->frame.depth[0], x, y) < INFINITY;
+           && *crv__plane_at(&s->frame.depth[0], x, y) < s->background;
 }
 
 /* What the radii of a phase are multiplied with before they are sorted into buckets. */
@@ -62,8 +63,7 @@ static int32_t bucket_at(const statement *s, int32_t x, int32_t y)
 {
     const crv__params *p = &s->params;
     const int is_walk = strcmp(s->c->options.method->name, "hbao") == 0;
-    if (!is_surface(s, x, y)
-        || *crv__plane_at(&s->frame.depth[0], x, y) >= 1024 * p->radius * p->fy)
+    if (!is_surface(s, x, y))
         return -1;
     float radius = radius_at(s, x, y);
     if (!(radius < 0.5f * (1 << OCTAVES) * exp2f(-0.125f) * 0.99f))
@@ -137,7 +137,7 @@ static float vo(const statement *s, int32_t x, int32_t y, float radius)
         float z = INFINITY;
         if (u >= 0 && v >= 0 && u < (float)p->width && v < (float)p->height)
             z = *crv__plane_at(&s->frame.depth[0], (int32_t)u, (int32_t)v);
-        if (z < 1024 * p->radius * p->fy)
+        if (z < s->background)
             open +=
                 fminf(fmaxf(p->orthographic ? z - d : d - d * d / z, -half), half) + half;
         else
@@ -290,6 +290,10 @@ static void fill_result(statement *s, float *out, int32_t *structured)
 {
     const crv_gbuffer_desc *d = &s->c->desc;
     const int structure = has_structure(s->c);
+    const crv__params *p = &s->params;
+    s->background = !structure        ? INFINITY
+                    : p->orthographic ? 1e18f
+                                      : 1024 * p->radius * p->fy;
     *structured = 0;
     for (int32_t y = d->guard_top; y < d->height - d->guard_bottom; y++) {
         for (int32_t x = d->guard_left; x < d->width - d->guard_right; x++) {

@@ -285,7 +285,7 @@ const crv__fast *crv__fast_prepare(crv__fast_state *s, const crv__setup *setup,
     s->fast.cap = !s->kind->is_walk ? INFINITY
                   : p->fx > p->fy   ? p->max_radius_px * (p->fy / p->fx)
                                     : p->max_radius_px;
-    s->fast.background = 1024 * p->radius * p->fy;
+    s->fast.background = p->orthographic ? 1e18f : 1024 * p->radius * p->fy;
     crv__run_parallel(setup->context, (uint32_t)(p->height + 15) / 16, deal_rows, &job);
     return &s->fast;
 }

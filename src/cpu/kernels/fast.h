@@ -50,6 +50,11 @@ typedef struct crv__fast_reach {
     float radius; /* projected, vertically, that the samples are spread over; pixels */
 } crv__fast_reach;
 
+/* What stands for no surface is finite, or it would spread as NaN, but farther from every
+ * surface with a bucket than the radius: 1024 times the depth at which the radius is a
+ * pixel; 1e18 where the camera is orthographic. Surfaces from there on count as
+ * background: their radius is a thousandth of a pixel, or of the rounding of their depth.
+ */
 typedef struct crv__fast {
     /* depth by phases of x: layer, row, segment */
     float *depth;
