@@ -6,8 +6,8 @@
 #define CRV__ESTIMATE(name)                                                              \
     void CRV__NAME(name)(const crv__frame *, int32_t, int32_t, int32_t, float *);
 #define CRV__FILTER(name)                                                                \
-    void CRV__NAME(name)(const crv__frame *, const crv__plane *, int32_t, int32_t,       \
-                         int32_t, int32_t, float *);
+    void CRV__NAME(name)(const crv__frame *, const crv__plane *, const crv__plane *,     \
+                         crv__rectangle);
 #define CRV__FAST(name, ...)                                                             \
     int CRV__NAME(name##_fast)(const crv__frame *, const crv__fast *, int32_t, int32_t,  \
                                int32_t, int32_t, int32_t, float *);
