@@ -3,6 +3,7 @@
 #ifndef CRV_CPU_KERNELS_KERNEL_H
 #define CRV_CPU_KERNELS_KERNEL_H
 
+#include "core/conversions.h"
 #include "cpu/kernels/fast.h"
 
 /* Accessibility of the pixels x0 to x1 - 1 of row y, intensity applied, in [0, 1],
@@ -49,6 +50,7 @@ typedef struct crv__kernels {
     const crv__named_filter *filters;
     const crv__fast_kind *fast;
     crv__fast_deal_kernel deal;
+    crv__conversions conversions;
 } crv__kernels;
 
 #endif
