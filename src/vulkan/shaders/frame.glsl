@@ -20,8 +20,9 @@ float view_unit(float depth)
 vec3 unproject(ivec2 at, float d)
 {
     const float scale = view_unit(d);
-    precise vec3 point = vec3((float(at.x) + 0.5 - params.cx) * params.inv_fx * scale,
-                              -(float(at.y) + 0.5 - params.cy) * params.inv_fy * scale, -d);
+    precise vec3 point =
+        vec3((float(at.x) + 0.5 - params.cx) * params.inv_fx * scale,
+             -(float(at.y) + 0.5 - params.cy) * params.inv_fy * scale, -d);
     return point;
 }
 

@@ -4,10 +4,10 @@
  * Louis Bavoil, Miguel Sainz, Rouslan Dimitrov: Image-Space Horizon-Based Ambient
  * Occlusion, SIGGRAPH 2008 talks.
  *
- * In each of the slices that directions theta cut from the hemisphere, the depth buffer is
- * walked outwards and the horizon h, the largest elevation so far, is kept:
- * A = 1 - 1/(2 pi) Int (sin h - sin t) W dtheta (eq. 3), t the tangent. src/methods/hbao.c
- * is the specification and says why each sample has a tangent of its own.
+ * In each of the slices that directions theta cut from the hemisphere, the depth buffer
+ * is walked outwards and the horizon h, the largest elevation so far, is kept: A = 1 -
+ * 1/(2 pi) Int (sin h - sin t) W dtheta (eq. 3), t the tangent. src/methods/hbao.c is the
+ * specification and says why each sample has a tangent of its own.
  */
 #ifndef HBAO_GLSL
 #define HBAO_GLSL
@@ -31,12 +31,13 @@ struct Slice {
     float weight;    /* attenuation horizon: W at the horizon point */
 };
 
-/* How far a sample rises over its tangent, raised by the bias: sin h - sin t; -1 where the
- * bias raises the tangent past the zenith. v = S - P, r = |v|; offset is the step on the
- * image plane from P's view ray to S's. */
+/* How far a sample rises over its tangent, raised by the bias: sin h - sin t; -1 where
+ * the bias raises the tangent past the zenith. v = S - P, r = |v|; offset is the step on
+ * the image plane from P's view ray to S's. */
 float rise(Shaded s, vec2 offset, vec3 v, float inverse_r)
 {
-    /* T is parallel to the plane (P, n) and to that of both view rays, and points to S. */
+    /* T is parallel to the plane (P, n) and to that of both view rays, and points to S.
+     */
     const float along = dot(s.n.xy, offset), facing = -dot(s.n, s.ray);
     const vec3 T = vec3(facing * offset + along * s.ray.xy, along * s.ray.z);
     const float squared = dot(T, T);

@@ -19,7 +19,8 @@ float input_at(ivec2 at)
     return texelFetch(input_image, at - ivec2(push.in_x, push.in_y), 0).r;
 }
 
-/* The centre of a filter window: its depth, and the depth's change from pixel to pixel. */
+/* The centre of a filter window: its depth, and the depth's change from pixel to pixel.
+ */
 struct Centre {
     ivec2 at;
     float depth;
@@ -72,7 +73,8 @@ bool tap_at(Centre c, ivec2 step, out Tap tap)
     tap.value = input_at(at);
     if (!is_surface(d) || is_nan(tap.value))
         return false;
-    const float expected = c.depth + float(step.x) * c.slope.x + float(step.y) * c.slope.y;
+    const float expected =
+        c.depth + float(step.x) * c.slope.x + float(step.y) * c.slope.y;
     tap.deviation = abs(d - expected) / params.filter_depth;
     tap.likeness = 1;
     if (params.filter_normal > 0) {
