@@ -171,6 +171,12 @@ vec3 normal_at(ivec2 at)
     return NORMALS_OCTAHEDRAL != 0 ? octahedral_decoded(stored.xy) : stored.xyz;
 }
 
+int interleaved(uint group, uint size, uint local)
+{
+    const uint edge = uint(INTERLEAVE), block = group / edge, phase = group % edge;
+    return int((block * size + local) * edge + phase);
+}
+
 /*
  * The pixel of the buffers that this invocation writes. Interleaved evaluation (the 2008
  * papers' 4x4 noise tile, evaluated tile phase by tile phase): all invocations of a
@@ -183,9 +189,10 @@ ivec2 pixel_of_invocation()
     const ivec2 corner = ivec2(push.out_x, push.out_y);
     if (INTERLEAVE <= 1)
         return corner + ivec2(gl_GlobalInvocationID.xy);
-    const ivec2 group = ivec2(gl_WorkGroupID.xy), size = ivec2(gl_WorkGroupSize.xy);
-    const ivec2 block = group / INTERLEAVE, phase = group % INTERLEAVE;
-    return corner + (block * size + ivec2(gl_LocalInvocationID.xy)) * INTERLEAVE + phase;
+    return corner
+           + ivec2(
+               interleaved(gl_WorkGroupID.x, gl_WorkGroupSize.x, gl_LocalInvocationID.x),
+               interleaved(gl_WorkGroupID.y, gl_WorkGroupSize.y, gl_LocalInvocationID.y));
 }
 
 bool in_output(ivec2 at)
