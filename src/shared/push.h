@@ -24,7 +24,8 @@ struct crv__push {
     int32_t depth_encoding;  /* crv_depth_encoding */
     int32_t normal_encoding; /* crv__normal_encoding */
 
-    float depth_a, depth_b; /* hardware depth v: 1 / (a + b v), orthographic a + b v */
+    /* Hardware depth: 1 / (a + b u), orthographic a + b u; depth.glsl says what u is. */
+    float depth_a, depth_b;
     float depth_background; /* planar and radial: this and all beyond; may be INFINITY */
     float unused;
 

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Depth encodings to planar depth with background +inf: src/core/depth.c, which reckons
- * in double precision. In single precision a hardware depth must be counted from the far
- * plane, u = 1 - v (exact for v from 1/2 to 1) or v where it is reversed:
- * 1 / d = 1/far + (1/near - 1/far) u then adds numbers of one sign and cancels nothing.
+ * in double precision. In single precision a hardware depth v must be counted from the
+ * end where what it maps to is smaller, by u = v or u = 1 - v (exact for v from 1/2 to
+ * 1): 1/d = 1/far + (1/near - 1/far) u with perspective, d = near + (far - near) u
+ * without. Both then add numbers of one sign and cancel nothing.
  */
 #ifndef DEPTH_GLSL
 #define DEPTH_GLSL
@@ -19,7 +20,8 @@ float planar_of_hardware(float v)
     const bool reversed = push.depth_encoding == DEPTH_REVERSED;
     if (!(v >= 0 && v <= 1) || v == (reversed ? 0 : 1))
         return INFINITY;
-    precise float affine = push.depth_a + push.depth_b * (reversed ? v : 1 - v);
+    const float u = reversed == is_orthographic() ? 1 - v : v;
+    precise float affine = push.depth_a + push.depth_b * u;
     if (is_orthographic())
         return affine;
     return affine > 0 ? 1 / affine : INFINITY;
