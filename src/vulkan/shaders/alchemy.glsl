@@ -23,36 +23,40 @@ int sample_count(float radius_px)
 }
 
 /* The term of eq. 10 of the first layer's point at this texel that lies within the
- * radius, H(R - r) in eq. 9. `raised` is d beta. */
-float obscurance_of(vec3 P, vec3 n, ivec2 texel, float raised, float eps)
+ * radius, H(R - r) in eq. 9. `offset` is the way to it on the image plane. */
+float obscurance_of(vec3 ray, float d, vec3 n, vec2 offset, ivec2 texel)
 {
+    const float eps = params.alchemy_eps * params.radius * params.radius;
+    float result = 0;
+    bool found = false;
     for (int layer = 0; layer < layer_count(); layer++) {
         const float depth = depth_at(texel, layer);
-        if (!is_surface(depth))
-            continue;
-        const vec3 v = unproject(texel, depth) - P;
+        const vec3 v = between(ray, d, offset, depth);
         const float squared = dot(v, v);
-        if (!(squared > params.radius * params.radius))
-            return max(0, dot(v, n) - raised) / (squared + eps);
+        const float term = max(0, dot(v, n) - d * params.alchemy_bias) / (squared + eps);
+        const bool counts = all(
+            bvec3(is_surface(depth), !found, squared <= params.radius * params.radius));
+        result = counts ? term : result;
+        found = found || counts;
     }
-    return 0;
+    return result;
 }
 
 float accessibility(ivec2 at, float d)
 {
     const crv__noise_texel noise = noise_at(at);
-    const vec3 P = unproject(at, d), n = normal_at(at);
+    const vec3 ray = view_ray(unproject(at, d), d), n = normal_at(at);
     const vec2 radius_px = projected_radius(d);
     const int count = sample_count(max(radius_px.x, radius_px.y));
-    const float eps = params.alchemy_eps * params.radius * params.radius;
     float sum = 0;
     for (int i = 0; i < count; i++) {
         const vec2 disk = turned(noise, pattern[i].xy); /* prefixes are well spread too */
         precise vec2 place = vec2(float(at.x) + 0.5 + disk.x * radius_px.x,
                                   float(at.y) + 0.5 - disk.y * radius_px.y);
-        if (place.x >= 0 && place.x < float(params.width) && place.y >= 0
-            && place.y < float(params.height))
-            sum += obscurance_of(P, n, ivec2(place), d * params.alchemy_bias, eps);
+        const vec2 inside = clamped_place(place);
+        const ivec2 texel = ivec2(inside);
+        const float term = obscurance_of(ray, d, n, image_offset(at, texel), texel);
+        sum += inside == place ? term : 0; /* beyond is background */
     }
     return 1 - 2 * params.radius * sum / float(count);
 }

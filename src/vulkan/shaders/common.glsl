@@ -26,6 +26,7 @@ layout(constant_id = 10) const int NOISE_SIZE = -1;
 layout(constant_id = 11) const int FILTER_SLOPE = -1;
 layout(constant_id = 12) const int LAYERS_SOLID = -1;
 layout(constant_id = 14) const int SPACING = -1;
+layout(constant_id = 17) const int BIASED = -1; /* 0: bias_deg is 0 */
 
 /* 1, or the edge of the noise tile: see pixel_of_invocation(). */
 layout(constant_id = 13) const int INTERLEAVE = 1;
@@ -123,7 +124,8 @@ bool filter_uses_slope()
 
 bool in_buffers(ivec2 at)
 {
-    return at.x >= 0 && at.y >= 0 && at.x < params.width && at.y < params.height;
+    /* Negative numbers are large ones without sign. */
+    return all(lessThan(uvec2(at), uvec2(params.width, params.height)));
 }
 
 float depth_at(ivec2 at, int layer)
@@ -197,7 +199,8 @@ ivec2 pixel_of_invocation()
 
 bool in_output(ivec2 at)
 {
-    return at.x < push.out_x + push.out_width && at.y < push.out_y + push.out_height;
+    const ivec2 end = ivec2(push.out_x + push.out_width, push.out_y + push.out_height);
+    return all(lessThan(at, end));
 }
 
 void write_output(ivec2 at, vec4 value)

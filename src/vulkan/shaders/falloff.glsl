@@ -8,11 +8,9 @@
 const int FALLOFF_NONE = 0, FALLOFF_LINEAR = 1, FALLOFF_SQRT = 2, FALLOFF_CUBIC = 3,
           FALLOFF_EXPONENTIAL = 4, FALLOFF_ALCHEMY = 5;
 
-/* W(r) of an occluder at distance r = q * radius; 0 from q = 1 on. */
-float falloff(float q)
+/* W(r) of an occluder at distance r = q * radius, q < 1. */
+float falloff_within(float q)
 {
-    if (!(q < 1))
-        return 0;
     switch (falloff_kind()) {
     case FALLOFF_NONE:
         return 1;
@@ -30,6 +28,13 @@ float falloff(float q)
     }
     }
     return 0;
+}
+
+/* 0 from q = 1 on. */
+float falloff(float q)
+{
+    const float W = falloff_within(q);
+    return q < 1 ? W : 0;
 }
 
 #endif

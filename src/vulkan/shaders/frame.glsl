@@ -26,6 +26,41 @@ vec3 unproject(ivec2 at, float d)
     return point;
 }
 
+/* The place in the buffers, in pixels from their corner, that is nearest to `place` and
+ * falls on a texel: the same where `place` does. Fetching there and throwing away what
+ * does not count keeps samples free of branches, so that many fetches are under way at
+ * once. */
+vec2 clamped_place(vec2 place)
+{
+    const vec2 size = vec2(params.width, params.height);
+    const vec2 last = uintBitsToFloat(floatBitsToUint(size) - 1u); /* just below */
+    return clamp(place, vec2(0), last);
+}
+
+/* The view ray of a point at planar depth d, z = -1. */
+vec3 view_ray(vec3 point, float d)
+{
+    return is_orthographic() ? vec3(0, 0, -1) : vec3(point.xy / d, -1);
+}
+
+/*
+ * S - P, where P lies at depth d on the view ray `ray` and S at depth z on the ray of a
+ * texel that is `offset` away on the image plane at depth 1: less work than two points
+ * and their difference, and nothing cancels.
+ */
+vec3 between(vec3 ray, float d, vec2 offset, float z)
+{
+    const float farther = z - d;
+    return vec3(ray.xy * farther + offset * view_unit(z), -farther);
+}
+
+/* The offset on the image plane at depth 1 from one texel to another. */
+vec2 image_offset(ivec2 from, ivec2 to)
+{
+    return vec2(float(to.x - from.x) * params.inv_fx,
+                float(from.y - to.y) * params.inv_fy);
+}
+
 crv__noise_texel noise_at(ivec2 at)
 {
     const ivec2 place = (at + ivec2(params.noise_x, params.noise_y)) % noise_size();

@@ -18,10 +18,12 @@
 const int SPACING_QUADRATIC = 1;
 const int ATTENUATION_SLAB = 0;
 
-/* The shaded point. */
+/* The shaded point P, on the image plane at `ray`. */
 struct Shaded {
-    vec3 P, n;
-    vec3 ray; /* through P: (0, 0, -1) or P / depth */
+    float depth;
+    vec3 ray; /* P / depth; (0, 0, -1) where rays are parallel */
+    vec3 n;
+    float facing; /* -n.ray */
 };
 
 /* The slice so far. */
@@ -31,40 +33,37 @@ struct Slice {
     float weight;    /* attenuation horizon: W at the horizon point */
 };
 
-/* How far a sample rises over its tangent, raised by the bias: sin h - sin t; -1 where
- * the bias raises the tangent past the zenith. v = S - P, r = |v|; offset is the step on
- * the image plane from P's view ray to S's. */
-float rise(Shaded s, vec2 offset, vec3 v, float inverse_r)
+/*
+ * -sin t of the sample's own tangent T, raised by the bias; offset is the step on the
+ * image plane from P's view ray to the sample's. T is parallel to the plane (P, n) and to
+ * that of both view rays, and points to the sample. -2 where the bias raises the tangent
+ * past the zenith.
+ */
+float tangent_fall(Shaded s, vec2 offset)
 {
-    /* T is parallel to the plane (P, n) and to that of both view rays, and points to S.
-     */
-    const float along = dot(s.n.xy, offset), facing = -dot(s.n, s.ray);
-    const vec3 T = vec3(facing * offset + along * s.ray.xy, along * s.ray.z);
-    const float squared = dot(T, T);
-    if (!(squared > 0))
-        return -1;
-    const float inverse_length = inversesqrt(squared);
-    const float sin_t = T.z * inverse_length;
-    const float cos_t = sqrt(dot(T.xy, T.xy)) * inverse_length;
-    if (cos_t * params.cos_bias <= sin_t * params.sin_bias)
-        return -1;
-    return v.z * inverse_r - (sin_t * params.cos_bias + cos_t * params.sin_bias);
+    const float along = dot(s.n.xy, offset); /* -T.z */
+    const vec2 T = s.facing * offset + along * s.ray.xy;
+    const float fall = along * inversesqrt(dot(T, T) + along * along);
+    if (BIASED == 0)
+        return fall;
+    const float cos_t = sqrt(max(0, 1 - fall * fall));
+    return cos_t * params.cos_bias > -fall * params.sin_bias
+               ? fall * params.cos_bias - cos_t * params.sin_bias
+               : -2;
 }
 
-void add_sample(inout Slice slice, Shaded s, vec2 offset, vec3 S)
+/* v = S - P of a surface point S. Where S is P, h is NaN, and nothing is added. */
+void add_sample(inout Slice slice, Shaded s, vec2 offset, vec3 v, bool is_there)
 {
-    const vec3 v = S - s.P;
     const float squared = dot(v, v);
-    if (!(squared < params.radius * params.radius) || squared == 0)
-        return;
     const float inverse_r = inversesqrt(squared);
-    const float h = rise(s, offset, v, inverse_r);
-    if (h <= slice.horizon)
-        return;
-    const float W = falloff(squared * inverse_r * params.inv_radius);
-    slice.occlusion += (h - slice.horizon) * W;
-    slice.horizon = h;
-    slice.weight = W;
+    const float h = v.z * inverse_r + tangent_fall(s, offset);
+    const float W = falloff_within(squared * inverse_r * params.inv_radius);
+    const bool raises =
+        all(bvec3(is_there, squared<params.radius * params.radius, h> slice.horizon));
+    slice.occlusion += raises ? (h - slice.horizon) * W : 0;
+    slice.horizon = raises ? h : slice.horizon;
+    slice.weight = raises ? W : slice.weight;
 }
 
 /* The projected radius, capped. */
@@ -91,18 +90,13 @@ float slice_occlusion(Shaded s, ivec2 at, vec2 reach, float beta)
     for (int i = 0; i < step_count(); i++) {
         const float t = step_share(i, beta);
         precise vec2 place = vec2(at) + 0.5 + t * reach;
-        if (!(place.x >= 0 && place.x < float(params.width) && place.y >= 0
-              && place.y < float(params.height)))
-            break; /* background from here on */
-        const ivec2 texel = ivec2(place);
-        if (texel == at)
-            continue;
-        const vec2 offset = vec2(float(texel.x - at.x) * params.inv_fx,
-                                 -float(texel.y - at.y) * params.inv_fy);
+        const vec2 inside = clamped_place(place); /* beyond is background */
+        const ivec2 texel = ivec2(inside);
+        const vec2 offset = image_offset(at, texel);
         for (int layer = 0; layer < layer_count(); layer++) {
             const float depth = depth_at(texel, layer);
-            if (is_surface(depth))
-                add_sample(slice, s, offset, unproject(texel, depth));
+            add_sample(slice, s, offset, between(s.ray, s.depth, offset, depth),
+                       all(bvec2(inside == place, is_surface(depth))));
         }
     }
     return attenuation_kind() == ATTENUATION_SLAB ? slice.occlusion
@@ -112,9 +106,8 @@ float slice_occlusion(Shaded s, ivec2 at, vec2 reach, float beta)
 float accessibility(ivec2 at, float d)
 {
     const crv__noise_texel noise = noise_at(at);
-    const vec3 P = unproject(at, d);
-    const vec3 ray = is_orthographic() ? vec3(0, 0, -1) : vec3(P.xy / d, -1);
-    const Shaded s = Shaded(P, normal_at(at), ray);
+    const vec3 ray = view_ray(unproject(at, d), d), n = normal_at(at);
+    const Shaded s = Shaded(d, ray, n, -dot(n, ray));
     const vec2 radius_px = sampled_radius(d);
     float occlusion = 0;
     for (int k = 0; k < direction_count(); k++) {

@@ -49,12 +49,11 @@ vec3 lifted(vec3 P, vec3 n)
 bool texel_of(vec3 Q, out ivec2 texel)
 {
     const float unit = view_unit(-Q.z);
-    precise float x = params.cx + params.fx * Q.x / unit;
-    precise float y = params.cy - params.fy * Q.y / unit;
-    const bool inside = unit > 0 && x >= 0 && x < float(params.width) && y >= 0
-                        && y < float(params.height);
-    texel = inside ? ivec2(int(x), int(y)) : ivec2(0);
-    return inside;
+    precise vec2 place =
+        vec2(params.cx + params.fx * Q.x / unit, params.cy - params.fy * Q.y / unit);
+    const vec2 inside = clamped_place(place);
+    texel = ivec2(inside);
+    return all(bvec2(unit > 0, inside == place));
 }
 
 /* The depth of the back of what has its front at depth d in this layer: where layers come

@@ -9,8 +9,7 @@
 bool in_input(ivec2 at)
 {
     const ivec2 place = at - ivec2(push.in_x, push.in_y);
-    return place.x >= 0 && place.y >= 0 && place.x < push.in_width
-           && place.y < push.in_height;
+    return all(lessThan(uvec2(place), uvec2(push.in_width, push.in_height)));
 }
 
 /* `at` in the buffers, in_input(at). */
