@@ -9,21 +9,34 @@
 #ifndef BOX4_GLSL
 #define BOX4_GLSL
 
-#include "tap.glsl"
+#include "common.glsl"
 
 const int FIRST = -2, LAST = 1;
+#define TILE_TEXELS                                                                      \
+    ((gl_WorkGroupSize.x + LAST - FIRST) * (gl_WorkGroupSize.y + LAST - FIRST))
 
-float filtered(ivec2 at)
+#include "tap.glsl"
+
+ivec2 window_before()
 {
-    const Centre centre = centre_at(at);
+    return ivec2(-FIRST);
+}
+
+ivec2 window_after()
+{
+    return ivec2(LAST);
+}
+
+float filtered(int index, int row)
+{
+    const Centre centre = centre_at(index, row, ivec2(1));
     float sum = 0, count = 0;
     for (int dy = FIRST; dy <= LAST; dy++) {
         for (int dx = FIRST; dx <= LAST; dx++) {
-            Tap tap;
-            if (!tap_at(centre, ivec2(dx, dy), tap) || tap.deviation > 1)
-                continue;
-            sum += tap.value;
-            count += 1;
+            const Tap tap = tap_at(centre, ivec2(dx, dy));
+            const bool counts = all(bvec2(tap.likeness > 0, tap.deviation <= 1));
+            sum += counts ? tap.value : 0;
+            count += counts ? 1 : 0;
         }
     }
     return sum / count; /* the centre is always in */

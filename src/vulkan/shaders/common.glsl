@@ -27,6 +27,7 @@ layout(constant_id = 11) const int FILTER_SLOPE = -1;
 layout(constant_id = 12) const int LAYERS_SOLID = -1;
 layout(constant_id = 14) const int SPACING = -1;
 layout(constant_id = 17) const int BIASED = -1; /* 0: bias_deg is 0 */
+layout(constant_id = 18) const int FILTER_PASS = -1;
 
 /* 1, or the edge of the noise tile: see pixel_of_invocation(). */
 layout(constant_id = 13) const int INTERLEAVE = 1;
@@ -120,6 +121,11 @@ int noise_size()
 bool filter_uses_slope()
 {
     return (FILTER_SLOPE < 0 ? params.filter_slope : FILTER_SLOPE) != 0;
+}
+
+int filter_pass()
+{
+    return FILTER_PASS < 0 ? push.pass : FILTER_PASS;
 }
 
 bool in_buffers(ivec2 at)

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "tap.glsl"
+#include "input.glsl"
 
 /* Copies the rectangle inside the guard band to the host's image. */
 void main()

@@ -1,27 +1,46 @@
 /* SPDX-License-Identifier: MIT */
-/* What the filters share: which neighbours belong to the same surface, by depth and
- * normal. src/filters/tap.h */
+/*
+ * What the filters share: which neighbours belong to the same surface, by depth and
+ * normal (src/filters/tap.h). A workgroup first takes all that its windows cover into
+ * shared memory, since windows overlap: every texel is fetched once or twice instead of
+ * once for each window that it lies in. The file that includes this one defines
+ * TILE_TEXELS, how many that are at most.
+ */
 #ifndef TAP_GLSL
 #define TAP_GLSL
 
-#include "common.glsl"
+#include "input.glsl"
 
-bool in_input(ivec2 at)
+shared vec4 tile_surface[TILE_TEXELS]; /* normal, depth */
+shared float tile_value[TILE_TEXELS];  /* accessibility; NaN: no tap */
+
+/* Takes the texel `at` into the tile; what lies outside the buffers as background. All is
+ * fetched first, at the nearest texel, and left out where it does not count. */
+void take_texel(int index, ivec2 at)
 {
-    const ivec2 place = at - ivec2(push.in_x, push.in_y);
-    return all(lessThan(uvec2(place), uvec2(push.in_width, push.in_height)));
+    const ivec2 texel = clamp(at, ivec2(0), ivec2(params.width - 1, params.height - 1));
+    const float depth = depth_at(texel, 0), value = input_at(at);
+    const vec3 normal = normal_at(texel);
+    const bool is_there = all(bvec2(in_buffers(at), is_surface(depth)));
+    tile_surface[index] = vec4(normal, is_there ? depth : INFINITY);
+    tile_value[index] =
+        all(bvec2(is_there, in_input(at))) ? value : uintBitsToFloat(0x7fc00000u);
 }
 
-/* `at` in the buffers, in_input(at). */
-float input_at(ivec2 at)
+/* Fills the tile with the rectangle of `size` texels from `first` on, row by row. */
+void take_tile(ivec2 first, ivec2 size)
 {
-    return texelFetch(input_image, at - ivec2(push.in_x, push.in_y), 0).r;
+    const int count = size.x * size.y,
+              step = int(gl_WorkGroupSize.x * gl_WorkGroupSize.y);
+    for (int index = int(gl_LocalInvocationIndex); index < count; index += step)
+        take_texel(index, first + ivec2(index % size.x, index / size.x));
+    barrier();
 }
 
-/* The centre of a filter window: its depth, and the depth's change from pixel to pixel.
- */
+/* The centre of a filter window: its place in the tile, its depth, and the depth's change
+ * from pixel to pixel. */
 struct Centre {
-    ivec2 at;
+    int index, row; /* row: from a texel to the one below */
     float depth;
     vec2 slope;
     vec3 normal;
@@ -29,27 +48,23 @@ struct Centre {
 
 /* The smaller of the two one-sided differences: the one that does not cross an edge. 0 at
  * pixels without neighbours. */
-float slope_along(ivec2 at, ivec2 step, float d)
+float slope_along(int index, int step, float d)
 {
-    float slope = INFINITY;
-    for (int side = -1; side <= 1; side += 2) {
-        const ivec2 neighbour = at + side * step;
-        if (!in_buffers(neighbour))
-            continue;
-        const float depth = depth_at(neighbour, 0);
-        const float difference = (depth - d) * float(side);
-        if (is_surface(depth) && abs(difference) < abs(slope))
-            slope = difference;
-    }
+    const float before = d - tile_surface[index - step].w;
+    const float after = tile_surface[index + step].w - d;
+    const float slope = abs(after) < abs(before) ? after : before;
     return is_surface(abs(slope)) ? slope : 0;
 }
 
-Centre centre_at(ivec2 at)
+/* The slope along the axes of which `axes` is 1. */
+Centre centre_at(int index, int row, ivec2 axes)
 {
-    Centre c = Centre(at, depth_at(at, 0), vec2(0), normal_at(at));
-    if (filter_uses_slope())
-        c.slope = vec2(slope_along(at, ivec2(1, 0), c.depth),
-                       slope_along(at, ivec2(0, 1), c.depth));
+    const vec4 own = tile_surface[index];
+    Centre c = Centre(index, row, own.w, vec2(0), own.xyz);
+    if (filter_uses_slope() && axes.x == 1)
+        c.slope.x = slope_along(index, 1, c.depth);
+    if (filter_uses_slope() && axes.y == 1)
+        c.slope.y = slope_along(index, row, c.depth);
     return c;
 }
 
@@ -57,30 +72,24 @@ struct Tap {
     float value;
     float deviation; /* of its depth from what the centre leads one to expect, in units of
                         filter_depth */
-    float likeness;  /* of its normal to the centre's, 0 to 1 */
+    float likeness;  /* of its normal to the centre's, at most 1; 0 or less where there is
+                        no such tap: outside the picture, background, or a surface turned
+                        by filter_normal or more */
 };
 
-/* The tap at the centre + step. False where there is no such tap: outside the picture,
- * background, or a surface turned by filter_normal or more. */
-bool tap_at(Centre c, ivec2 step, out Tap tap)
+Tap tap_at(Centre c, ivec2 step)
 {
-    tap = Tap(0, 0, 0);
-    const ivec2 at = c.at + step;
-    if (!in_input(at))
-        return false;
-    const float d = depth_at(at, 0);
-    tap.value = input_at(at);
-    if (!is_surface(d) || is_nan(tap.value))
-        return false;
+    const int index = c.index + step.y * c.row + step.x;
+    const vec4 surface = tile_surface[index];
+    const float value = tile_value[index];
     const float expected =
         c.depth + float(step.x) * c.slope.x + float(step.y) * c.slope.y;
-    tap.deviation = abs(d - expected) / params.filter_depth;
-    tap.likeness = 1;
-    if (params.filter_normal > 0) {
-        const float turned = 1 - dot(normal_at(at), c.normal);
-        tap.likeness = min(1, 1 - turned * params.filter_normal);
-    }
-    return tap.likeness > 0;
+    const float deviation = abs(surface.w - expected) / params.filter_depth;
+    /* 1 - cos of the angle; the product of two unit vectors would cancel */
+    const vec3 apart = surface.xyz - c.normal;
+    const float turned = 0.5 * dot(apart, apart);
+    const float likeness = min(1, 1 - turned * params.filter_normal);
+    return Tap(value, deviation, is_nan(value) ? 0 : likeness);
 }
 
 #endif
