@@ -31,6 +31,8 @@ layout(constant_id = 18) const int FILTER_PASS = -1;
 
 /* 1, or the edge of the noise tile: see pixel_of_invocation(). */
 layout(constant_id = 13) const int INTERLEAVE = 1;
+/* 1, or the edge of the tiles by which the depth image is taken apart: see depth_at(). */
+layout(constant_id = 16) const int DEPTH_EDGE = 1;
 /* 1: the image of normals holds two octahedral numbers instead of x, y, z. */
 layout(constant_id = 15) const int NORMALS_OCTAHEDRAL = 0;
 
@@ -53,7 +55,11 @@ layout(std430, set = 0, binding = 3) readonly buffer Pattern
 layout(set = 0, binding = 4) uniform sampler2DArray depth_image; /* background: +inf */
 layout(set = 0, binding = 5) uniform sampler2D normal_image;
 layout(set = 0, binding = 6) uniform sampler2D input_image; /* accessibility */
+#ifdef OUTPUT_ARRAY
+layout(set = 0, binding = 7) uniform writeonly image2DArray output_image;
+#else
 layout(set = 0, binding = 7) uniform writeonly image2D output_image;
+#endif
 layout(set = 0, binding = 8) uniform sampler2D host_image; /* depth or normals */
 
 layout(push_constant) uniform Push
@@ -134,9 +140,24 @@ bool in_buffers(ivec2 at)
     return all(lessThan(uvec2(at), uvec2(params.width, params.height)));
 }
 
+/*
+ * Where the depth image has a texel of a layer. With DEPTH_EDGE n it holds n x n layers
+ * for each layer, each of them every n-th texel of every n-th row: pixels that are n
+ * apart and march in step (pixel_of_invocation()) then read neighbouring texels.
+ */
+ivec3 depth_texel(ivec2 at, int layer)
+{
+    const uint edge = uint(DEPTH_EDGE);
+    const uvec2 block = uvec2(at) / edge, phase = uvec2(at) % edge;
+    return DEPTH_EDGE <= 1
+               ? ivec3(at, layer)
+               : ivec3(block, (uint(layer) * edge + phase.y) * edge + phase.x);
+}
+
+/* in_buffers(at) */
 float depth_at(ivec2 at, int layer)
 {
-    return texelFetch(depth_image, ivec3(at, layer), 0).r;
+    return texelFetch(depth_image, depth_texel(at, layer), 0).r;
 }
 
 /* Neither background nor NaN. Bits are compared, since a compiler may take for granted
@@ -209,9 +230,11 @@ bool in_output(ivec2 at)
     return all(lessThan(at, end));
 }
 
+#ifndef OUTPUT_ARRAY
 void write_output(ivec2 at, vec4 value)
 {
     imageStore(output_image, at - ivec2(push.out_x, push.out_y), value);
 }
+#endif
 
 #endif

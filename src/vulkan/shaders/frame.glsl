@@ -61,9 +61,19 @@ vec2 image_offset(ivec2 from, ivec2 to)
                 float(from.y - to.y) * params.inv_fy);
 }
 
+/* The pixel whose place in the noise tile stands for `at`. Where a workgroup has one
+ * place only, one of the workgroup: then a compiler sees that all of it is alike. */
+ivec2 noise_pixel(ivec2 at)
+{
+    if (INTERLEAVE <= 1 || INTERLEAVE % noise_size() != 0)
+        return at;
+    return ivec2(push.out_x, push.out_y) + ivec2(gl_WorkGroupID.xy) % INTERLEAVE;
+}
+
 crv__noise_texel noise_at(ivec2 at)
 {
-    const ivec2 place = (at + ivec2(params.noise_x, params.noise_y)) % noise_size();
+    const ivec2 pixel = noise_pixel(at) + ivec2(params.noise_x, params.noise_y);
+    const ivec2 place = pixel % noise_size();
     return noise_tile[place.y * noise_size() + place.x];
 }
 
