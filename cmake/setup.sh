@@ -31,6 +31,13 @@ llvm-symbolizer  llvm
 -                libomp-dev
 '
 
+# To compile for 64-bit Arm on another machine and to run that.
+needs_arm='
+aarch64-linux-gnu-gcc  gcc-aarch64-linux-gnu
+qemu-aarch64           qemu-user
+-                      libc6-dev-arm64-cross
+'
+
 # needs_missing NEEDS: the packages of those needs that are not met, one a line.
 needs_missing()
 {

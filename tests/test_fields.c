@@ -60,6 +60,9 @@ static void make(scene *s, fixture f, int32_t guard)
     crv_context_desc hooks;
     crv_context_desc_init(&hooks, sizeof hooks);
     hooks.allocator = (crv_allocator){counting_allocate, counting_release, &s->memory};
+    /* Frames with a field are the scalar code's, and are compared with others bit by bit.
+     */
+    hooks.isa_mask = 1u << CRV_ISA_SCALAR;
     crv_gbuffer_desc_init(&s->desc, sizeof s->desc, f.width, f.height);
     s->desc.guard_left = s->desc.guard_right = guard;
     s->desc.guard_top = s->desc.guard_bottom = guard;

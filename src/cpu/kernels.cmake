@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: MIT
 # The kernels, compiled once per instruction set that the compiler and the target have.
 set(crevice_kernel_sources
-    cpu/kernels/table_tmpl.c cpu/kernels/hbao_tmpl.c
+    cpu/kernels/table_tmpl.c
+    cpu/kernels/alchemy_tmpl.c cpu/kernels/containment_tmpl.c cpu/kernels/hbao_tmpl.c
+    cpu/kernels/hsao_tmpl.c cpu/kernels/raymarch_tmpl.c cpu/kernels/ssao_tmpl.c
+    cpu/kernels/vao_tmpl.c cpu/kernels/vo_tmpl.c
     cpu/kernels/bilateral13_tmpl.c cpu/kernels/box4_tmpl.c cpu/kernels/gauss5_tmpl.c)
 
 function(crevice_kernels set)

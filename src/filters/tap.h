@@ -54,7 +54,8 @@ typedef struct crv__tap {
 
 /*
  * The tap at (x + dx, y + dy). Returns 0 where there is no such tap: outside the picture,
- * background, or a surface turned by filter_normal or more.
+ * background, a surface turned by filter_normal or more, or one so far off that the
+ * deviation overflows.
  */
 static inline int crv__tap_at(const crv__frame *f, const crv__plane *input,
                               const crv__centre *c, int32_t dx, int32_t dy, crv__tap *tap)
@@ -70,7 +71,7 @@ static inline int crv__tap_at(const crv__frame *f, const crv__plane *input,
     tap->deviation = fabsf(d - expected) / f->params->filter_depth;
     const float turned = 1 - crv__dot(crv__normal_at(f, u, v), c->normal);
     tap->likeness = fminf(1, 1 - turned * f->params->filter_normal);
-    return tap->likeness > 0;
+    return tap->likeness > 0 && tap->deviation < INFINITY;
 }
 
 #endif

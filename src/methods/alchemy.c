@@ -54,7 +54,7 @@ static float accessibility(const crv__frame *f, int32_t x, int32_t y)
                 continue;
             const crv__vec3 to = crv__sub(crv__unproject(p, u, v, depth), P);
             const float squared = crv__dot(to, to);
-            if (squared > p->radius * p->radius)
+            if (!(squared <= p->radius * p->radius))
                 continue; /* H(R - r) of eq. 9; a layer behind may lie within */
             sum += fmaxf(0, crv__dot(to, n) - d * p->alchemy_bias) / (squared + eps);
             break;

@@ -20,7 +20,8 @@
  * depth d. */
 static float open_part(const crv__params *p, float d, float z, float half)
 {
-    const float behind = p->orthographic ? z - d : d - d * d / z;
+    /* d^2 of a far background would overflow. */
+    const float behind = p->orthographic ? z - d : d - d * (d / z);
     return z < INFINITY ? fminf(fmaxf(behind, -half), half) + half : 2 * half;
 }
 

@@ -46,15 +46,15 @@ static inline void add_samples(slices *s, const crv__params *p, const crv__pixel
     s->weight = vf_select(above, W, s->weight);
 }
 
-static inline vf accessibility(const crv__frame *f, const crv__pixels *at)
+CRV__INLINE vf accessibility(const crv__frame *f, crv__shape shape, const crv__pixels *at)
 {
     const crv__params *p = f->params;
-    const vf half = vf_set(0.5f), unit = p->orthographic ? vf_set(1) : at->depth;
-    const view eye = {p->orthographic ? vf_zero() : at->P.x / at->depth,
-                      p->orthographic ? vf_zero() : at->P.y / at->depth,
-                      p->orthographic ? at->n.z
-                                      : at->n.z - at->n.x * (at->P.x / at->depth)
-                                            - at->n.y * (at->P.y / at->depth)};
+    const vf half = vf_set(0.5f), unit = shape.orthographic ? vf_set(1) : at->depth;
+    const view eye = {shape.orthographic ? vf_zero() : at->P.x / at->depth,
+                      shape.orthographic ? vf_zero() : at->P.y / at->depth,
+                      shape.orthographic ? at->n.z
+                                         : at->n.z - at->n.x * (at->P.x / at->depth)
+                                               - at->n.y * (at->P.y / at->depth)};
     vf radius_x = vf_set(p->radius * p->fx) / unit,
        radius_y = vf_set(p->radius * p->fy) / unit;
     const vf largest = vf_max(radius_x, radius_y), cap = vf_set(p->max_radius_px);
@@ -68,8 +68,7 @@ static inline vf accessibility(const crv__frame *f, const crv__pixels *at)
     vf occlusion = vf_zero();
     for (int32_t k = 0; k < p->directions; k++) {
         vf cosine, sine;
-        crv__lanes_turned(at, f->directions[2 * k], f->directions[2 * k + 1], &cosine,
-                          &sine);
+        crv__lanes_point(at, k, &cosine, &sine);
         const vf step_x = cosine * radius_x, step_y = -sine * radius_y;
         slices walk = {vf_zero(), vf_zero(), vf_zero()};
         for (int32_t i = 0; i < p->steps; i++) {
@@ -84,9 +83,9 @@ static inline vf accessibility(const crv__frame *f, const crv__pixels *at)
             in = vm_and(in, vm_not(vm_and(vi_eq(u, at->x), vi_eq(v, y))));
             if (!vm_any(in))
                 continue;
-            const vf offset_x = vf_of(u - at->x) * vf_set(p->inv_fx);
-            const vf offset_y = vf_of(y - v) * vf_set(p->inv_fy);
-            for (int32_t layer = 0; layer < p->layers; layer++) {
+            const vf offset_x = vf_of(vi_sub(u, at->x)) * vf_set(p->inv_fx);
+            const vf offset_y = vf_of(vi_sub(y, v)) * vf_set(p->inv_fy);
+            for (int32_t layer = 0; layer < shape.layers; layer++) {
                 const vf depth = crv__lanes_read(&f->depth[layer], u, v, in);
                 const vm there = vm_and(in, vf_lt(depth, vf_set(INFINITY)));
                 add_samples(&walk, p, at, &eye, offset_x, offset_y,
@@ -99,6 +98,13 @@ static inline vf accessibility(const crv__frame *f, const crv__pixels *at)
                                                       : walk.horizon * walk.weight);
     }
     return vf_set(1) - occlusion / vf_set((float)p->directions);
+}
+
+CRV__INLINE int within(const crv__frame *f, const crv__pixels *at)
+{
+    (void)f;
+    (void)at;
+    return 0;
 }
 
 CRV__ESTIMATE_KERNEL(hbao)

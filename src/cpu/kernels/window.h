@@ -105,16 +105,22 @@ CRV__INLINE crv__taps crv__taps_at(const crv__window *w, int32_t dx, int32_t dy)
                       crv__row_read(&f->normal[2], u, v, &unused)};
         inside = vm_and(inside, vf_le(value, value));
     }
-    const vf expected = vf_fma(vf_set((float)dy), w->slope_y,
-                               vf_fma(vf_set((float)dx), w->slope_x, w->depth));
+    /* In the scalar code's order and rounding: beside silhouettes the slopes are steep,
+     * and cancel. They are finite, so that no step adds nothing. */
+    vf expected = w->depth;
+    if (dx != 0)
+        expected = expected + vf_set((float)dx) * w->slope_x;
+    if (dy != 0)
+        expected = expected + vf_set((float)dy) * w->slope_y;
     crv__taps tap;
     tap.deviation = vf_abs(d - expected) * vf_set(1 / f->params->filter_depth);
     const vf cosine =
         vf_fma(n.x, w->normal.x, vf_fma(n.y, w->normal.y, n.z * w->normal.z));
     const vf likeness =
         vf_min(vf_fma(cosine - one, vf_set(f->params->filter_normal), one), one);
-    tap.any =
-        vm_and(vm_and(inside, vf_lt(d, vf_set(INFINITY))), vf_lt(vf_zero(), likeness));
+    const vf infinity = vf_set(INFINITY);
+    tap.any = vm_and(vm_and(inside, vf_lt(d, infinity)),
+                     vm_and(vf_lt(vf_zero(), likeness), vf_lt(tap.deviation, infinity)));
     tap.value = vf_where(tap.any, value);
     tap.likeness = vf_where(tap.any, likeness);
     return tap;

@@ -5,8 +5,9 @@
 
 #include <immintrin.h>
 
-#define CRV__SIMD_NAME avx2
-#define CRV__LANES     8
+#define CRV__SIMD_NAME       avx2
+#define CRV__LANES           8
+#define CRV__FMA_ROUNDS_ONCE 1
 
 typedef float vf __attribute__((vector_size(32)));
 typedef int32_t vi __attribute__((vector_size(32)));
@@ -141,6 +142,17 @@ CRV__INLINE vi vi_trunc(vf a)
 CRV__INLINE vi vi_round(vf a)
 {
     return (vi)_mm256_cvtps_epi32(a);
+}
+
+CRV__INLINE vi vi_floor(vf a)
+{
+    return (vi)_mm256_cvttps_epi32(_mm256_floor_ps(a));
+}
+
+CRV__INLINE vm vi_below(vi a, vi n)
+{
+    const __m256i last = _mm256_sub_epi32((__m256i)n, _mm256_set1_epi32(1));
+    return (vm)_mm256_cmpeq_epi32(_mm256_min_epu32((__m256i)a, last), (__m256i)a);
 }
 
 CRV__INLINE vf vf_of(vi a)

@@ -5,8 +5,9 @@
 
 #include <immintrin.h>
 
-#define CRV__SIMD_NAME avx512
-#define CRV__LANES     16
+#define CRV__SIMD_NAME       avx512
+#define CRV__LANES           16
+#define CRV__FMA_ROUNDS_ONCE 1
 
 typedef float vf __attribute__((vector_size(64)));
 typedef int32_t vi __attribute__((vector_size(64)));
@@ -141,6 +142,16 @@ CRV__INLINE vi vi_trunc(vf a)
 CRV__INLINE vi vi_round(vf a)
 {
     return (vi)_mm512_cvtps_epi32(a);
+}
+
+CRV__INLINE vi vi_floor(vf a)
+{
+    return (vi)_mm512_cvt_roundps_epi32(a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+}
+
+CRV__INLINE vm vi_below(vi a, vi n)
+{
+    return _mm512_cmplt_epu32_mask((__m512i)a, (__m512i)n);
 }
 
 CRV__INLINE vf vf_of(vi a)

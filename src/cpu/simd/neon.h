@@ -5,8 +5,9 @@
 
 #include <arm_neon.h>
 
-#define CRV__SIMD_NAME neon
-#define CRV__LANES     4
+#define CRV__SIMD_NAME       neon
+#define CRV__LANES           4
+#define CRV__FMA_ROUNDS_ONCE 1
 
 typedef float vf __attribute__((vector_size(16)));
 typedef int32_t vi __attribute__((vector_size(16)));
@@ -143,6 +144,17 @@ CRV__INLINE vi vi_trunc(vf a)
 CRV__INLINE vi vi_round(vf a)
 {
     return (vi)vcvtnq_s32_f32(a);
+}
+
+CRV__INLINE vi vi_floor(vf a)
+{
+    /* A NaN would become 0. */
+    return (vi)vcvtmq_s32_f32(a) | ~vf_le(a, a);
+}
+
+CRV__INLINE vm vi_below(vi a, vi n)
+{
+    return (vm)vcltq_u32((uint32x4_t)a, (uint32x4_t)n);
 }
 
 CRV__INLINE vf vf_of(vi a)

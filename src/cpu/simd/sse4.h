@@ -5,8 +5,9 @@
 
 #include <smmintrin.h>
 
-#define CRV__SIMD_NAME sse4
-#define CRV__LANES     4
+#define CRV__SIMD_NAME       sse4
+#define CRV__LANES           4
+#define CRV__FMA_ROUNDS_ONCE 0
 
 typedef float vf __attribute__((vector_size(16)));
 typedef int32_t vi __attribute__((vector_size(16)));
@@ -141,6 +142,17 @@ CRV__INLINE vi vi_trunc(vf a)
 CRV__INLINE vi vi_round(vf a)
 {
     return (vi)_mm_cvtps_epi32(a);
+}
+
+CRV__INLINE vi vi_floor(vf a)
+{
+    return (vi)_mm_cvttps_epi32(_mm_floor_ps(a));
+}
+
+CRV__INLINE vm vi_below(vi a, vi n)
+{
+    const __m128i last = _mm_sub_epi32((__m128i)n, _mm_set1_epi32(1));
+    return (vm)_mm_cmpeq_epi32(_mm_min_epu32((__m128i)a, last), (__m128i)a);
 }
 
 CRV__INLINE vf vf_of(vi a)

@@ -16,9 +16,12 @@
  *   vf_select vi_select      first where the mask is set, else second
  *   vf_min vf_max            the second argument where either is a NaN
  *   vf_sqrt vf_floor vf_fma  exact; fma rounds twice where the set has none
- *   vf_rsqrt                 1/sqrt, relative error < 1e-6
- *   vf_rsqrt_rough           relative error < 4e-4; infinite at 0 or NaN
+ *   vf_rsqrt                 1/sqrt, relative error < 1e-6; not for denormal numbers
+ *   vf_rsqrt_rough           relative error < 4e-4; at 0 infinite or a NaN
  *   vi_trunc vi_round vf_of  conversions; the value must fit
+ *   vi_floor                 rounded down; negative or INT32_MAX where it does not fit or
+ *                            is a NaN
+ *   vi_below                 0 <= a < n, n > 0
  *   vf_gather                base[index]; 0 and no access where the mask is clear, though
  *                            base[0] may be read
  *   vf_split4 vf_join4       4 * CRV__LANES consecutive floats to and from the four
@@ -29,7 +32,8 @@
 
 #include <stdint.h>
 
-#define CRV__INLINE static inline __attribute__((always_inline, unused))
+#define CRV__INLINE   static inline __attribute__((always_inline, unused))
+#define CRV__NOINLINE static __attribute__((noinline))
 
 #if defined(CRV__SIMD_AVX512)
 #include "avx512.h"
@@ -56,10 +60,34 @@ CRV__INLINE vi vi_iota(void)
     return vi_load(COUNT);
 }
 
+/* a + b, a - b and a * b where they may not fit: modulo 2^32, as + - * on vi do in fact
+ * but not in C. */
+typedef uint32_t crv__vu __attribute__((vector_size(4 * CRV__LANES)));
+
+CRV__INLINE vi vi_add(vi a, vi b)
+{
+    return (vi)((crv__vu)a + (crv__vu)b);
+}
+
+CRV__INLINE vi vi_sub(vi a, vi b)
+{
+    return (vi)((crv__vu)a - (crv__vu)b);
+}
+
+CRV__INLINE vi vi_mul(vi a, vi b)
+{
+    return (vi)((crv__vu)a * (crv__vu)b);
+}
+
 /* Set in the first n lanes. */
 CRV__INLINE vm vm_first(int32_t n)
 {
     return vi_lt(vi_iota(), vi_set(n));
+}
+
+CRV__INLINE vm vm_none(void)
+{
+    return vm_first(0);
 }
 
 CRV__INLINE vf vf_zero(void)
@@ -104,6 +132,23 @@ CRV__INLINE void vf_store_n(float *to, vf a, int32_t n)
     vf_store(lanes, a);
     for (int32_t i = 0; i < n; i++)
         to[i] = lanes[i];
+}
+
+/*
+ * a / d and b / d, rounded as divisions are: where fma rounds once, a quotient by the
+ * reciprocal is put right by its remainder (Markstein 1990), and one division serves
+ * both. NaN where a quotient is infinite.
+ */
+CRV__INLINE void vf_quotients(vf a, vf b, vf d, vf *a_by_d, vf *b_by_d)
+{
+#if CRV__FMA_ROUNDS_ONCE
+    const vf r = vf_set(1) / d, qa = a * r, qb = b * r;
+    *a_by_d = vf_fma(vf_fma(-qa, d, a), r, qa);
+    *b_by_d = vf_fma(vf_fma(-qb, d, b), r, qb);
+#else
+    *a_by_d = a / d;
+    *b_by_d = b / d;
+#endif
 }
 
 /* e^a, relative error < 2e-7 * (1 + |a|); 0 below -87, a <= 0. Range reduction to powers
