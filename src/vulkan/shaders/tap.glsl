@@ -20,7 +20,10 @@ void take_texel(int index, ivec2 at)
 {
     const ivec2 texel = clamp(at, ivec2(0), ivec2(params.width - 1, params.height - 1));
     const float depth = depth_at(texel, 0), value = input_at(at);
-    const vec3 normal = normal_at(texel);
+    /* The image may hold 16 bits: 1 - cos of a small angle asks for unit length. */
+    const vec3 stored = normal_at(texel);
+    const float squared = dot(stored, stored);
+    const vec3 normal = squared > 0 ? stored * inversesqrt(squared) : stored;
     const bool is_there = all(bvec2(in_buffers(at), is_surface(depth)));
     tile_surface[index] = vec4(normal, is_there ? depth : INFINITY);
     tile_value[index] =
@@ -73,8 +76,9 @@ struct Tap {
     float deviation; /* of its depth from what the centre leads one to expect, in units of
                         filter_depth */
     float likeness;  /* of its normal to the centre's, at most 1; 0 or less where there is
-                        no such tap: outside the picture, background, or a surface turned
-                        by filter_normal or more */
+                        no such tap: outside the picture, background, a surface turned by
+                        filter_normal or more, or one so far off that the deviation
+                        overflows */
 };
 
 Tap tap_at(Centre c, ivec2 step)
@@ -85,11 +89,10 @@ Tap tap_at(Centre c, ivec2 step)
     const float expected =
         c.depth + float(step.x) * c.slope.x + float(step.y) * c.slope.y;
     const float deviation = abs(surface.w - expected) / params.filter_depth;
-    /* 1 - cos of the angle; the product of two unit vectors would cancel */
-    const vec3 apart = surface.xyz - c.normal;
-    const float turned = 0.5 * dot(apart, apart);
+    const float turned = 1 - dot(surface.xyz, c.normal);
     const float likeness = min(1, 1 - turned * params.filter_normal);
-    return Tap(value, deviation, is_nan(value) ? 0 : likeness);
+    const bool is_tap = all(bvec2(!is_nan(value), is_surface(deviation)));
+    return Tap(value, deviation, is_tap ? likeness : 0);
 }
 
 #endif

@@ -18,7 +18,7 @@ float open_part(float d, float z, float half_chord)
 {
     if (!is_surface(z))
         return 2 * half_chord;
-    const float behind = is_orthographic() ? z - d : d - d * d / z;
+    const float behind = is_orthographic() ? z - d : d - d * (d / z);
     return min(max(behind, -half_chord), half_chord) + half_chord;
 }
 
