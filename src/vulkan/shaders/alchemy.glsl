@@ -12,6 +12,7 @@
 #define ALCHEMY_GLSL
 
 #include "frame.glsl"
+#include "level.glsl"
 
 /* Samples for a projected radius: in `bands` steps from samples/bands to all of them. */
 int sample_count(float radius_px)
@@ -24,13 +25,13 @@ int sample_count(float radius_px)
 
 /* The term of eq. 10 of the first layer's point at this texel that lies within the
  * radius, H(R - r) in eq. 9. `offset` is the way to it on the image plane. */
-float obscurance_of(vec3 ray, float d, vec3 n, vec2 offset, ivec2 texel)
+float obscurance_of(vec3 ray, float d, vec3 n, vec2 offset, ivec2 texel, int level)
 {
     const float eps = params.alchemy_eps * params.radius * params.radius;
     float result = 0;
     bool found = false;
     for (int layer = 0; layer < layer_count(); layer++) {
-        const float depth = depth_at(texel, layer);
+        const float depth = depth_in_level(texel, layer, level);
         const vec3 v = between(ray, d, offset, depth);
         const float squared = dot(v, v);
         const float term = max(0, dot(v, n) - d * params.alchemy_bias) / (squared + eps);
@@ -54,8 +55,10 @@ float accessibility(ivec2 at, float d)
         precise vec2 place = vec2(float(at.x) + 0.5 + disk.x * radius_px.x,
                                   float(at.y) + 0.5 - disk.y * radius_px.y);
         const vec2 inside = clamped_place(place);
-        const ivec2 texel = ivec2(inside);
-        const float term = obscurance_of(ray, d, n, image_offset(at, texel), texel);
+        const int level = level_at(length(disk * radius_px));
+        const ivec2 texel = standing_for(ivec2(inside), level);
+        const float term =
+            obscurance_of(ray, d, n, image_offset(at, texel), texel, level);
         sum += inside == place ? term : 0; /* beyond is background */
     }
     return 1 - 2 * params.radius * sum / float(count);

@@ -14,6 +14,7 @@
 
 #include "falloff.glsl"
 #include "frame.glsl"
+#include "level.glsl"
 
 const int SPACING_QUADRATIC = 1;
 const int ATTENUATION_SLAB = 0;
@@ -87,14 +88,16 @@ float step_share(int i, float beta)
 float slice_occlusion(Shaded s, ivec2 at, vec2 reach, float beta)
 {
     Slice slice = Slice(0, 0, 0);
+    const float reach_px = length(reach);
     for (int i = 0; i < step_count(); i++) {
         const float t = step_share(i, beta);
         precise vec2 place = vec2(at) + 0.5 + t * reach;
         const vec2 inside = clamped_place(place); /* beyond is background */
-        const ivec2 texel = ivec2(inside);
+        const int level = level_at(t * reach_px);
+        const ivec2 texel = standing_for(ivec2(inside), level);
         const vec2 offset = image_offset(at, texel);
         for (int layer = 0; layer < layer_count(); layer++) {
-            const float depth = depth_at(texel, layer);
+            const float depth = depth_in_level(texel, layer, level);
             add_sample(slice, s, offset, between(s.ray, s.depth, offset, depth),
                        all(bvec2(inside == place, is_surface(depth))));
         }
