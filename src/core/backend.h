@@ -40,8 +40,17 @@ struct crv__backend {
      * nothing. */
     crv_status (*run)(const crv__work *work, int filter_only, const crv__plane planes[2],
                       const crv__plane **result);
+    void (*close)(crv_context *context); /* its device; NULL: nothing to do */
 };
 
 extern const crv__backend crv__cpu_backend;
+
+/* Gives the context a Vulkan device and its backend. UNSUPPORTED with a line where there
+ * is none, or the library was built without (vulkan/absent.c). */
+crv_status crv__vulkan_open(crv_context *context, int32_t index);
+
+/* A context on the CPU that is not yet anybody's: crv_context_create() without the
+ * device. */
+crv_status crv__context_create_bare(const crv_context_desc *desc, crv_context **out);
 
 #endif
