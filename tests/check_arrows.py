@@ -43,7 +43,7 @@ uchar.h wchar.h wctype.h""".split())
 # The headers from outside that a room may include; rooms that are not listed: any that no
 # other room owns.
 SYSTEM = {
-    "include/crevice": {"stdbool.h", "stddef.h", "stdint.h"},
+    "include/crevice": {"stdbool.h", "stddef.h", "stdint.h", "vulkan/vulkan.h"},
     "src/shared": {"stddef.h", "stdint.h"},  # offsetof pins layouts
     "src/base": STANDARD | {"malloc.h", "omp.h"},  # Windows has its aligned allocator there
     "src/core": STANDARD,
@@ -58,6 +58,7 @@ OWNED = {
     r"(openexr|OpenEXR|png|zlib)": "io",
     r"(embree\d*/|assimp/)": "scene",
     r"(cjson/|cJSON)": "tools",
+    r"vulkan/": "src/vulkan",
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)', re.M)

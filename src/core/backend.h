@@ -17,6 +17,20 @@ typedef struct crv__setup {
     float *directions, *pattern;
 } crv__setup;
 
+/* Fills what does not depend on the frame. */
+void crv__setup_params(const crv__setup *setup, crv__params *params);
+
+/* Takes and fills directions, noise and the method's own points; 0, or -1 where memory is
+ * out. Release gives back what there is. */
+int crv__setup_patterns(crv__setup *setup);
+void crv__setup_release(crv__setup *setup);
+
+/* The result and, where the guard band has room, the margin that the filter reads. */
+typedef struct crv__rectangle {
+    int32_t x, y, width, height; /* of the buffers */
+} crv__rectangle;
+crv__rectangle crv__setup_rectangle(const crv__setup *setup);
+
 typedef struct crv__work {
     const crv__setup *setup;
     void *state; /* the backend's own, from plan_create() */

@@ -272,8 +272,6 @@ static crv__device *device_make(const crv_logger *logger, const crv_allocator *a
     return d;
 }
 
-extern const crv__backend crv__vulkan_backend;
-
 static crv_status adopt(crv_context *context, crv__device *d, crv_status status)
 {
     if (status) {

@@ -25,6 +25,8 @@ typedef struct crv__device {
     crv_allocator allocator;
 } crv__device;
 
+extern const crv__backend crv__vulkan_backend;
+
 /* The context's device; NULL where it has none. */
 crv__device *crv__device_of(const crv_context *context);
 

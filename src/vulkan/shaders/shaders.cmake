@@ -39,4 +39,5 @@ add_custom_command(OUTPUT ${crevice_shader_header}
         ${CMAKE_CURRENT_LIST_FILE}
     COMMENT "SPIR-V as C arrays" VERBATIM)
 add_custom_target(crevice_shaders DEPENDS ${crevice_shader_header})
-set_target_properties(crevice_shaders PROPERTIES CREVICE_TARGET_ENV ${CREVICE_SHADER_TARGET})
+set_target_properties(crevice_shaders PROPERTIES
+    CREVICE_TARGET_ENV ${CREVICE_SHADER_TARGET} CREVICE_INCLUDE ${CREVICE_SHADER_INCLUDE_DIR})

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: MIT */
+/* The pipelines of one method and filter, and the constant buffer that they share. */
+#ifndef CRV_VULKAN_PROGRAM_H
+#define CRV_VULKAN_PROGRAM_H
+
+#include "shared/push.h"
+#include "vulkan/memory.h"
+
+/* The bindings of set 0 (shaders/common.glsl). */
+enum {
+    CRV__BIND_PARAMS,
+    CRV__BIND_NOISE,
+    CRV__BIND_DIRECTIONS,
+    CRV__BIND_PATTERN,
+    CRV__BIND_DEPTH,
+    CRV__BIND_NORMALS,
+    CRV__BIND_INPUT,
+    CRV__BIND_OUTPUT,
+    CRV__BIND_HOST,
+    CRV__BINDINGS
+};
+
+enum { CRV__MOST_PASSES = 2 }; /* of a filter */
+
+typedef struct crv__pipeline {
+    VkPipeline pipeline;
+    int32_t group; /* edge of a workgroup, px */
+} crv__pipeline;
+
+typedef struct crv__program {
+    const crv__device *device;
+    VkSampler sampler;
+    VkDescriptorSetLayout set_layout;
+    VkPipelineLayout layout;
+    crv__pipeline depth, normals; /* only where the host's images are converted */
+    crv__pipeline estimate, filter[CRV__MOST_PASSES], resolve;
+    int32_t passes;                                /* of the filter */
+    crv__buffer constants;                         /* noise, directions, pattern */
+    VkDescriptorBufferInfo table[CRV__BIND_DEPTH]; /* where they are, by binding */
+} crv__program;
+
+/* The setup has its patterns. Where it fails, crv__program_destroy() takes back the rest.
+ */
+crv_status crv__program_create(crv__program *p, const crv__device *device,
+                               const crv__setup *setup, int converts);
+void crv__program_destroy(crv__program *p);
+
+#endif
