@@ -2,6 +2,7 @@
 #include "fixture.h"
 
 #include <math.h>
+#include <string.h>
 
 static fixture_hit miss(void)
 {
@@ -145,17 +146,52 @@ static void upload(const fixture *f, const fixture_run *run, crv_gbuffer *gbuffe
                          CRV_OK);
 }
 
+static crv_context *vulkan_context; /* of the process: devices take long to make */
+
+static void destroy_vulkan_context(void)
+{
+    crv_context_destroy(vulkan_context);
+}
+
+int fixture_on_vulkan(void)
+{
+    const char *device = getenv("CREVICE_TEST_DEVICE");
+    return device && strcmp(device, "vulkan") == 0;
+}
+
+/* The context of a run; with CREVICE_TEST_DEVICE=vulkan one for all of them. */
+static crv_context *take_context(const fixture_run *run)
+{
+    crv_context_desc desc;
+    crv_context *context = NULL;
+    crv_context_desc_init(&desc, sizeof desc);
+    desc.logger = fixture_strict_logger();
+    desc.threads = run->threads;
+    desc.parallel = run->parallel;
+    if (!fixture_on_vulkan()) {
+        assert_int_equal(crv_context_create(&desc, &context), CRV_OK);
+        return context;
+    }
+    desc.device = CRV_DEVICE_VULKAN;
+    if (!vulkan_context) {
+        assert_int_equal(crv_context_create(&desc, &vulkan_context), CRV_OK);
+        atexit(destroy_vulkan_context);
+    }
+    return vulkan_context;
+}
+
+static void give_context_back(crv_context *context)
+{
+    if (context != vulkan_context)
+        crv_context_destroy(context);
+}
+
 float *fixture_compute(const fixture *f, const crv_options *options,
                        const fixture_run *run)
 {
     static const fixture_run DEFAULTS;
     if (!run)
         run = &DEFAULTS;
-    crv_context_desc context_desc;
-    crv_context_desc_init(&context_desc, sizeof context_desc);
-    context_desc.logger = fixture_strict_logger();
-    context_desc.threads = run->threads;
-    context_desc.parallel = run->parallel;
     crv_gbuffer_desc desc;
     crv_gbuffer_desc_init(&desc, sizeof desc, f->width, f->height);
     desc.layers = run->second_layer ? 2 : 1;
@@ -170,16 +206,15 @@ float *fixture_compute(const fixture *f, const crv_options *options,
     float *pixels = malloc((size_t)width * (size_t)height * sizeof(float));
     crv_image result = crv_image_packed(pixels, width, height, 1);
 
-    crv_context *context = NULL;
+    crv_context *context = take_context(run);
     crv_gbuffer *gbuffer = NULL;
     crv_plan *plan = NULL;
-    assert_int_equal(crv_context_create(&context_desc, &context), CRV_OK);
     assert_int_equal(crv_gbuffer_create(context, &desc, &gbuffer), CRV_OK);
     assert_int_equal(crv_plan_create(context, options, &desc, &plan), CRV_OK);
     upload(f, run, gbuffer);
     assert_int_equal(crv_plan_run(plan, gbuffer, &result), CRV_OK);
     crv_plan_destroy(plan);
     crv_gbuffer_destroy(gbuffer);
-    crv_context_destroy(context);
+    give_context_back(context);
     return pixels;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "vulkan/device.h"
+#include "vulkan/pipelines.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -251,6 +251,7 @@ void crv__device_destroy(crv__device *d)
 {
     if (!d)
         return;
+    crv__pipelines_close(d);
     if (d->owned && d->device)
         d->vk.DestroyDevice(d->device, d->callbacks);
     if (d->owned && d->vk.DestroyInstance)
@@ -274,6 +275,8 @@ static crv__device *device_make(const crv_logger *logger, const crv_allocator *a
 
 static crv_status adopt(crv_context *context, crv__device *d, crv_status status)
 {
+    if (status == CRV_OK)
+        status = crv__pipelines_open(d);
     if (status) {
         crv__device_destroy(d);
         return status;

@@ -8,6 +8,8 @@
 
 #include "crevice/vulkan.h"
 
+typedef struct crv__pipelines crv__pipelines;
+
 typedef struct crv__device {
     crv__vk_table vk;
     void *loader; /* NULL: the host's */
@@ -23,6 +25,7 @@ typedef struct crv__device {
     crv_vulkan_memory memory;
     crv_logger logger;
     crv_allocator allocator;
+    crv__pipelines *pipelines;
 } crv__device;
 
 extern const crv__backend crv__vulkan_backend;

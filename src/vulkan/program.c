@@ -1,109 +1,61 @@
 /* SPDX-License-Identifier: MIT */
 #include "vulkan/program.h"
 
-#include "crevice_shaders.h"
-
-#include <stdio.h>
 #include <string.h>
 
 /* Offsets of storage buffers: every device takes a multiple of this. */
 enum { OFFSET_ALIGNMENT = 256 };
 
-/* Specialisation constants, by id (shaders/common.glsl). */
-enum {
-    SPEC_SIZE_X,
-    SPEC_SIZE_Y,
-    SPEC_FALLOFF,
-    SPEC_DIRECTIONS,
-    SPEC_STEPS,
-    SPEC_NORMAL_RAYS,
-    SPEC_SAMPLES,
-    SPEC_ATTENUATION,
-    SPEC_LAYERS,
-    SPEC_ORTHOGRAPHIC,
-    SPEC_NOISE_SIZE,
-    SPEC_FILTER_SLOPE,
-    SPEC_LAYERS_SOLID,
-    SPEC_INTERLEAVE,
-    SPEC_SPACING,
-    SPEC_NORMALS_OCTAHEDRAL,
-    SPEC_DEPTH_EDGE,
-    SPEC_BIASED,
-    SPEC_FILTER_PASS,
-    SPEC_LOD_PX,
-    SPECS
-};
+/* All that a shader may have fixed; -1: read from the buffers. */
+static void clear_specs(int32_t group, int32_t specs[CRV__SPECS])
+{
+    for (int i = 0; i < CRV__SPECS; i++)
+        specs[i] = -1;
+    specs[CRV__SPEC_SIZE_X] = specs[CRV__SPEC_SIZE_Y] = group;
+    specs[CRV__SPEC_INTERLEAVE] = specs[CRV__SPEC_DEPTH_EDGE] = 1;
+    specs[CRV__SPEC_NORMALS_OCTAHEDRAL] = specs[CRV__SPEC_LOD_PX] = 0;
+}
 
-static void fill_specs(const crv__setup *setup, int32_t group, int32_t pass,
-                       int32_t specs[SPECS])
+static crv_status take_estimate(crv__program *p, const crv__setup *setup, int32_t group)
 {
     const crv_options *o = &setup->options;
-    specs[SPEC_SIZE_X] = specs[SPEC_SIZE_Y] = group;
-    specs[SPEC_FALLOFF] = (int32_t)o->falloff;
-    specs[SPEC_DIRECTIONS] = o->directions;
-    specs[SPEC_STEPS] = o->steps;
-    specs[SPEC_NORMAL_RAYS] = o->normal_rays;
-    specs[SPEC_SAMPLES] = o->samples;
-    specs[SPEC_ATTENUATION] = (int32_t)o->attenuation;
-    specs[SPEC_LAYERS] = setup->desc.layers;
-    specs[SPEC_ORTHOGRAPHIC] = -1; /* the camera comes with the frame */
-    specs[SPEC_NOISE_SIZE] = o->noise_size;
-    specs[SPEC_FILTER_SLOPE] = o->filter_slope;
-    specs[SPEC_LAYERS_SOLID] = setup->desc.layer_kind == CRV_LAYERS_SOLID;
-    specs[SPEC_INTERLEAVE] = 1;
-    specs[SPEC_SPACING] = (int32_t)o->spacing;
-    specs[SPEC_NORMALS_OCTAHEDRAL] = 0;
-    specs[SPEC_DEPTH_EDGE] = 1;
-    specs[SPEC_BIASED] = o->bias_deg > 0;
-    specs[SPEC_FILTER_PASS] = pass;
-    specs[SPEC_LOD_PX] = 0;
+    int32_t specs[CRV__SPECS];
+    clear_specs(group, specs);
+    specs[CRV__SPEC_FALLOFF] = (int32_t)o->falloff;
+    specs[CRV__SPEC_DIRECTIONS] = o->directions;
+    specs[CRV__SPEC_STEPS] = o->steps;
+    specs[CRV__SPEC_NORMAL_RAYS] = o->normal_rays;
+    specs[CRV__SPEC_SAMPLES] = o->samples;
+    specs[CRV__SPEC_ATTENUATION] = (int32_t)o->attenuation;
+    specs[CRV__SPEC_LAYERS] = setup->desc.layers;
+    specs[CRV__SPEC_NOISE_SIZE] = o->noise_size;
+    specs[CRV__SPEC_LAYERS_SOLID] = setup->desc.layer_kind == CRV_LAYERS_SOLID;
+    specs[CRV__SPEC_SPACING] = (int32_t)o->spacing;
+    specs[CRV__SPEC_BIASED] = o->bias_deg > 0;
+    p->estimate.group = group;
+    return crv__pipeline_take(p->device, setup->method->info.name, specs,
+                              &p->estimate.pipeline);
 }
 
-static const crv__shader *shader_find(const char *name)
+static crv_status take_filter(crv__program *p, const crv__setup *setup, int32_t group,
+                              int32_t pass)
 {
-    for (int i = 0; i < CRV__SHADER_COUNT; i++) {
-        if (strcmp(crv__shaders[i].name, name) == 0)
-            return &crv__shaders[i];
-    }
-    return NULL;
+    int32_t specs[CRV__SPECS];
+    clear_specs(group, specs);
+    specs[CRV__SPEC_FILTER_SLOPE] = setup->options.filter_slope;
+    specs[CRV__SPEC_FILTER_PASS] = pass;
+    p->filter[pass].group = group;
+    return crv__pipeline_take(p->device, setup->filter->info.name, specs,
+                              &p->filter[pass].pipeline);
 }
 
-static crv_status create_pipeline(crv__program *p, const crv__setup *setup,
-                                  const char *name, int32_t group, int32_t pass,
-                                  crv__pipeline *out)
+static crv_status take_convert(crv__program *p, const char *shader, int32_t group,
+                               crv__pipeline *out)
 {
-    const crv__device *d = p->device;
-    const crv__shader *shader = shader_find(name);
-    if (!shader)
-        return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
-                         "vulkan: there is no shader %s; use the CPU", name);
-    int32_t specs[SPECS];
-    VkSpecializationMapEntry entries[SPECS];
-    fill_specs(setup, group, pass, specs);
-    for (uint32_t i = 0; i < SPECS; i++)
-        entries[i] =
-            (VkSpecializationMapEntry){i, i * (uint32_t)sizeof *specs, sizeof *specs};
-    const VkSpecializationInfo specialization = {SPECS, entries, sizeof specs, specs};
-    const VkShaderModuleCreateInfo module = {
-        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-        .codeSize = shader->size_bytes,
-        .pCode = shader->words};
-    VkComputePipelineCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-        .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                  .stage = VK_SHADER_STAGE_COMPUTE_BIT,
-                  .pName = "main",
-                  .pSpecializationInfo = &specialization},
-        .layout = p->layout};
-    VkResult result =
-        d->vk.CreateShaderModule(d->device, &module, d->callbacks, &info.stage.module);
-    if (result == VK_SUCCESS) {
-        result = d->vk.CreateComputePipelines(d->device, VK_NULL_HANDLE, 1, &info,
-                                              d->callbacks, &out->pipeline);
-        d->vk.DestroyShaderModule(d->device, info.stage.module, d->callbacks);
-    }
+    int32_t specs[CRV__SPECS];
+    clear_specs(group, specs);
     out->group = group;
-    return result ? crv__device_fail(d, result, name) : CRV_OK;
+    return crv__pipeline_take(p->device, shader, specs, &out->pipeline);
 }
 
 /* Filters share texels in a workgroup: the larger, the fewer are fetched twice. */
@@ -112,55 +64,17 @@ static int32_t filter_group(const crv__device *d)
     return d->properties.limits.maxComputeWorkGroupInvocations >= 256 ? 16 : 8;
 }
 
-static crv_status create_pipelines(crv__program *p, const crv__setup *setup, int converts)
+static crv_status take_pipelines(crv__program *p, const crv__setup *setup, int converts)
 {
     enum { GROUP = 8 };
-    crv_status status =
-        create_pipeline(p, setup, setup->method->info.name, GROUP, 0, &p->estimate);
+    crv_status status = take_estimate(p, setup, GROUP);
     for (int32_t i = 0; status == CRV_OK && i < p->passes; i++)
-        status = create_pipeline(p, setup, setup->filter->info.name,
-                                 filter_group(p->device), i, &p->filter[i]);
+        status = take_filter(p, setup, filter_group(p->device), i);
     if (status == CRV_OK && converts)
-        status = create_pipeline(p, setup, "depth_convert", GROUP, 0, &p->depth);
+        status = take_convert(p, "depth_convert", GROUP, &p->depth);
     if (status == CRV_OK && converts)
-        status = create_pipeline(p, setup, "normals_convert", GROUP, 0, &p->normals);
+        status = take_convert(p, "normals_convert", GROUP, &p->normals);
     return status;
-}
-
-static VkResult create_layouts(crv__program *p)
-{
-    const crv__device *d = p->device;
-    VkDescriptorSetLayoutBinding bindings[CRV__BINDINGS];
-    for (uint32_t i = 0; i < CRV__BINDINGS; i++)
-        bindings[i] = (VkDescriptorSetLayoutBinding){
-            .binding = i,
-            .descriptorType = i == CRV__BIND_PARAMS ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
-                              : i < CRV__BIND_DEPTH ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
-                              : i == CRV__BIND_OUTPUT
-                                  ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
-                                  : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-            .descriptorCount = 1,
-            .stageFlags = VK_SHADER_STAGE_COMPUTE_BIT};
-    const VkDescriptorSetLayoutCreateInfo sets = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-        .bindingCount = CRV__BINDINGS,
-        .pBindings = bindings};
-    VkResult result =
-        d->vk.CreateDescriptorSetLayout(d->device, &sets, d->callbacks, &p->set_layout);
-    if (result)
-        return result;
-    const VkPushConstantRange push = {VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(crv__push)};
-    const VkPipelineLayoutCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-        .setLayoutCount = 1,
-        .pSetLayouts = &p->set_layout,
-        .pushConstantRangeCount = 1,
-        .pPushConstantRanges = &push};
-    result = d->vk.CreatePipelineLayout(d->device, &info, d->callbacks, &p->layout);
-    if (result)
-        return result;
-    const VkSamplerCreateInfo sampler = {.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
-    return d->vk.CreateSampler(d->device, &sampler, d->callbacks, &p->sampler);
 }
 
 static VkDeviceSize aligned(VkDeviceSize size)
@@ -200,11 +114,8 @@ crv_status crv__program_create(crv__program *p, const crv__device *device,
 {
     *p = (crv__program){.device = device,
                         .passes = setup->filter ? setup->filter->passes : 0};
-    const VkResult result = create_layouts(p);
-    if (result)
-        return crv__device_fail(device, result, "layouts");
     const crv_status status = create_constants(p, setup);
-    return status ? status : create_pipelines(p, setup, converts);
+    return status ? status : take_pipelines(p, setup, converts);
 }
 
 void crv__program_destroy(crv__program *p)
@@ -212,14 +123,11 @@ void crv__program_destroy(crv__program *p)
     const crv__device *d = p->device;
     if (!d)
         return;
-    const VkPipeline pipelines[] = {p->depth.pipeline,     p->normals.pipeline,
-                                    p->estimate.pipeline,  p->filter[0].pipeline,
-                                    p->filter[1].pipeline, p->resolve.pipeline};
+    const VkPipeline pipelines[] = {p->depth.pipeline, p->normals.pipeline,
+                                    p->estimate.pipeline, p->filter[0].pipeline,
+                                    p->filter[1].pipeline};
     for (size_t i = 0; i < sizeof pipelines / sizeof pipelines[0]; i++)
-        d->vk.DestroyPipeline(d->device, pipelines[i], d->callbacks);
+        crv__pipeline_give(d, pipelines[i]);
     crv__buffer_destroy(&p->constants, d);
-    d->vk.DestroySampler(d->device, p->sampler, d->callbacks);
-    d->vk.DestroyPipelineLayout(d->device, p->layout, d->callbacks);
-    d->vk.DestroyDescriptorSetLayout(d->device, p->set_layout, d->callbacks);
     *p = (crv__program){0};
 }

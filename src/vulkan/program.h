@@ -5,20 +5,7 @@
 
 #include "shared/push.h"
 #include "vulkan/memory.h"
-
-/* The bindings of set 0 (shaders/common.glsl). */
-enum {
-    CRV__BIND_PARAMS,
-    CRV__BIND_NOISE,
-    CRV__BIND_DIRECTIONS,
-    CRV__BIND_PATTERN,
-    CRV__BIND_DEPTH,
-    CRV__BIND_NORMALS,
-    CRV__BIND_INPUT,
-    CRV__BIND_OUTPUT,
-    CRV__BIND_HOST,
-    CRV__BINDINGS
-};
+#include "vulkan/pipelines.h"
 
 enum { CRV__MOST_PASSES = 2 }; /* of a filter */
 
@@ -29,11 +16,8 @@ typedef struct crv__pipeline {
 
 typedef struct crv__program {
     const crv__device *device;
-    VkSampler sampler;
-    VkDescriptorSetLayout set_layout;
-    VkPipelineLayout layout;
     crv__pipeline depth, normals; /* only where the host's images are converted */
-    crv__pipeline estimate, filter[CRV__MOST_PASSES], resolve;
+    crv__pipeline estimate, filter[CRV__MOST_PASSES];
     int32_t passes;                                /* of the filter */
     crv__buffer constants;                         /* noise, directions, pattern */
     VkDescriptorBufferInfo table[CRV__BIND_DEPTH]; /* where they are, by binding */

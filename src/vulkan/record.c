@@ -94,9 +94,9 @@ void crv__slot_record_step(crv__slot *s, VkCommandBuffer commands,
     const crv__device *d = p->device;
     const int32_t group = pipeline->group;
     d->vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
-    d->vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, p->layout, 0, 1,
-                                &set, 0, NULL);
-    d->vk.CmdPushConstants(commands, p->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+    d->vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
+                                d->pipelines->layout, 0, 1, &set, 0, NULL);
+    d->vk.CmdPushConstants(commands, d->pipelines->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                            sizeof *push, push);
     d->vk.CmdDispatch(commands, (uint32_t)((push->out_width + group - 1) / group),
                       (uint32_t)((push->out_height + group - 1) / group), 1);

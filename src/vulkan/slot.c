@@ -15,7 +15,7 @@ void crv__bind_image(const crv__program *p, VkDescriptorSet set, uint32_t bindin
                      VkImageView view, VkImageLayout layout)
 {
     const crv__device *d = p->device;
-    const VkDescriptorImageInfo image = {p->sampler, view, layout};
+    const VkDescriptorImageInfo image = {d->pipelines->sampler, view, layout};
     const VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                                         .dstSet = set,
                                         .dstBinding = binding,
@@ -76,7 +76,7 @@ static VkResult create_sets(crv__slot *s)
     VkDescriptorSet sets[SETS];
     VkDescriptorSetLayout layouts[SETS];
     for (int i = 0; i < SETS; i++)
-        layouts[i] = s->program->set_layout;
+        layouts[i] = d->pipelines->set_layout;
     const VkDescriptorSetAllocateInfo info = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
         .descriptorPool = s->pool,
