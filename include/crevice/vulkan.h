@@ -176,7 +176,7 @@ CRV_API crv_status crv_vulkan_pass_record(crv_vulkan_pass *pass, VkCommandBuffer
 
 /* The time that a step of a recording took on the device. */
 typedef struct crv_vulkan_time {
-    const char *name; /* "depth", "normals", the method's name, "bilateral13 0", ... */
+    const char *name; /* "depth", "normals", the method's or filter's name */
     double time_ms;
 } crv_vulkan_time;
 

@@ -67,17 +67,6 @@ static void plan_destroy(const crv__setup *setup, void *data)
     crv__release(&setup->context->allocator, state, 1, sizeof *state);
 }
 
-static crv_status check_size(const crv__device *d, const crv__setup *setup)
-{
-    const uint32_t most = d->properties.limits.maxImageDimension2D;
-    if ((uint32_t)setup->desc.width <= most && (uint32_t)setup->desc.height <= most)
-        return CRV_OK;
-    return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
-                     "vulkan: %s has images of at most %u px, not %d x %d; use the CPU",
-                     d->properties.deviceName, most, setup->desc.width,
-                     setup->desc.height);
-}
-
 static crv_status plan_create(const crv__setup *setup, const crv__plane *rectangle,
                               void **out)
 {
@@ -88,7 +77,7 @@ static crv_status plan_create(const crv__setup *setup, const crv__plane *rectang
     if (!d->queue)
         return crv__fail(&d->logger, CRV_ERROR_INVALID_ARGUMENT,
                          "vulkan: plans need a queue; set host.queue");
-    crv_status status = check_size(d, setup);
+    crv_status status = crv__setup_check(d, setup);
     if (status)
         return status;
     plan_state *state = crv__allocate(&setup->context->allocator, 1, sizeof *state);

@@ -84,7 +84,13 @@ static void look_up_properties(crv__device *d)
 {
     VkQueueFamilyProperties families[MOST_FAMILIES];
     uint32_t count = MOST_FAMILIES;
-    d->vk.GetPhysicalDeviceProperties(d->physical, &d->properties);
+    VkPhysicalDeviceDriverProperties driver = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
+    d->vk.GetPhysicalDeviceProperties2(d->physical, &properties);
+    d->properties = properties.properties;
+    d->is_lavapipe = driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE;
     d->vk.GetPhysicalDeviceMemoryProperties(d->physical, &d->heaps);
     d->vk.GetPhysicalDeviceQueueFamilyProperties(d->physical, &count, families);
     if (d->family < count)

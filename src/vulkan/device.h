@@ -19,6 +19,7 @@ typedef struct crv__device {
     VkDevice device;
     VkQueue queue; /* VK_NULL_HANDLE: the host gave none */
     uint32_t family, timestamp_bits;
+    int is_lavapipe;
     VkPhysicalDeviceProperties properties;
     VkPhysicalDeviceMemoryProperties heaps;
     const VkAllocationCallbacks *callbacks;

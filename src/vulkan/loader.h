@@ -15,6 +15,7 @@
     F(DestroyInstance)                                                                   \
     F(EnumeratePhysicalDevices)                                                          \
     F(GetPhysicalDeviceProperties)                                                       \
+    F(GetPhysicalDeviceProperties2)                                                      \
     F(GetPhysicalDeviceFeatures2)                                                        \
     F(GetPhysicalDeviceMemoryProperties)                                                 \
     F(GetPhysicalDeviceQueueFamilyProperties)                                            \

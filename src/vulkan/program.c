@@ -6,6 +6,39 @@
 /* Offsets of storage buffers: every device takes a multiple of this. */
 enum { OFFSET_ALIGNMENT = 256 };
 
+/* How often the loops of a pixel's estimate turn, at most. */
+static double loop_rounds(const crv__setup *setup)
+{
+    const crv_options *o = &setup->options;
+    const int has_points = setup->pattern || setup->method->pattern_fill;
+    const int has_rays =
+        crv_option_applies(crv_option_find("normal_rays"), &setup->method->info, NULL);
+    const int has_steps =
+        crv_option_applies(crv_option_find("steps"), &setup->method->info, NULL);
+    double rounds = has_points ? o->samples : o->directions;
+    if (has_steps)
+        rounds *= (double)o->steps * (has_rays ? 1 + o->normal_rays : 1);
+    return rounds * (1 + setup->desc.layers);
+}
+
+crv_status crv__setup_check(const crv__device *d, const crv__setup *setup)
+{
+    enum { LAVAPIPE_ROUNDS = 65535 };
+    const uint32_t most = d->properties.limits.maxImageDimension2D;
+    if ((uint32_t)setup->desc.width > most || (uint32_t)setup->desc.height > most)
+        return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
+                         "vulkan: %s has images of at most %u px, not %d x %d; use the "
+                         "CPU",
+                         d->properties.deviceName, most, setup->desc.width,
+                         setup->desc.height);
+    if (d->is_lavapipe && loop_rounds(setup) > LAVAPIPE_ROUNDS)
+        return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
+                         "vulkan: lavapipe breaks loops off after %d rounds, and gives a "
+                         "wrong picture; take fewer samples, or the CPU",
+                         LAVAPIPE_ROUNDS);
+    return CRV_OK;
+}
+
 /* All that a shader may have fixed; -1: read from the buffers. */
 static void clear_specs(int32_t group, int32_t specs[CRV__SPECS])
 {

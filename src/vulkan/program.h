@@ -23,6 +23,9 @@ typedef struct crv__program {
     VkDescriptorBufferInfo table[CRV__BIND_DEPTH]; /* where they are, by binding */
 } crv__program;
 
+/* UNSUPPORTED with a line where the device cannot compute it. */
+crv_status crv__setup_check(const crv__device *d, const crv__setup *setup);
+
 /* The setup has its patterns. Where it fails, crv__program_destroy() takes back the rest.
  */
 crv_status crv__program_create(crv__program *p, const crv__device *device,
