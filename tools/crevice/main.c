@@ -7,8 +7,9 @@
 #include "help.h"
 
 static const command *const commands[] = {
-    &command_render,  &command_ao,      &command_gbuffer, &command_reference,
-    &command_compare, &command_methods, &command_report,  NULL};
+    &command_render,    &command_ao,      &command_gbuffer,
+    &command_reference, &command_compare, &command_methods,
+    &command_devices,   &command_report,  NULL};
 
 static const command *find_command(const char *name, report *r)
 {
