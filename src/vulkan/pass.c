@@ -355,9 +355,7 @@ crv_status crv_vulkan_pass_record(crv_vulkan_pass *p, VkCommandBuffer commands,
     fill_normals(&push, p, frame);
     crv__slot_record_begin(slot, commands);
     crv__record_layout(p->device, commands, frame->result, VK_IMAGE_LAYOUT_UNDEFINED,
-                       VK_IMAGE_LAYOUT_GENERAL,
-                       (crv__access){VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0},
-                       CRV__WRITTEN);
+                       VK_IMAGE_LAYOUT_GENERAL, CRV__EARLIER, CRV__WRITTEN);
     record_converts(p, slot, commands, frame, &push);
     record_passes(p, slot, commands, frame, &push);
     crv__record_layout(p->device, commands, frame->result, VK_IMAGE_LAYOUT_GENERAL,

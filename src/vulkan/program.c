@@ -18,7 +18,7 @@ static double loop_rounds(const crv__setup *setup)
     double rounds = has_points ? o->samples : o->directions;
     if (has_steps)
         rounds *= (double)o->steps * (has_rays ? 1 + o->normal_rays : 1);
-    return rounds * (1 + setup->desc.layers);
+    return setup->desc.layers > 1 ? rounds * (1 + setup->desc.layers) : rounds;
 }
 
 crv_status crv__setup_check(const crv__device *d, const crv__setup *setup)

@@ -2,6 +2,8 @@
 /* Commands: barriers and dispatches. */
 #include "vulkan/slot.h"
 
+const crv__access CRV__EARLIER = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                  VK_ACCESS_2_MEMORY_WRITE_BIT};
 const crv__access CRV__WRITTEN = {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                                   VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
 const crv__access CRV__SAMPLED = {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
@@ -60,7 +62,7 @@ void crv__record_layout(const crv__device *d, VkCommandBuffer commands, VkImage 
 void crv__slot_record_begin(crv__slot *s, VkCommandBuffer commands)
 {
     const crv__device *d = s->program->device;
-    const crv__access earlier = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0};
+    const crv__access earlier = CRV__EARLIER;
     const crv__access writes = {
         VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
         VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT

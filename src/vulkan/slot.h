@@ -45,8 +45,8 @@ typedef struct crv__access {
     VkPipelineStageFlags2 stages;
     VkAccessFlags2 access;
 } crv__access;
-extern const crv__access CRV__WRITTEN, CRV__SAMPLED, CRV__COPIED_TO, CRV__COPIED_FROM,
-    CRV__HOST_READS;
+extern const crv__access CRV__EARLIER, CRV__WRITTEN, CRV__SAMPLED, CRV__COPIED_TO,
+    CRV__COPIED_FROM, CRV__HOST_READS;
 void crv__record_barrier(const crv__device *d, VkCommandBuffer commands, crv__access from,
                          crv__access to);
 
