@@ -62,7 +62,7 @@ OWNED = {
 }
 
 # Headers that the build makes, and their rooms.
-GENERATED = {"crevice_shaders.h": "src/vulkan"}
+GENERATED = {"crevice_shaders.h": "src/vulkan", "vulkan_host_shaders.h": "examples"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)', re.M)
 COMMENT = re.compile(r"/\*.*?\*/", re.S)

@@ -14,3 +14,13 @@ foreach(suite conformance closed_forms filters)
 endforeach()
 set_tests_properties(test_vulkan_agreement ${crevice_vulkan_tests} PROPERTIES
     LABELS vulkan TIMEOUT 600 SKIP_RETURN_CODE 77)
+
+# The example that is a renderer of its own, under the validation layer.
+if(TARGET example_vulkan_host)
+    find_package(Python3 REQUIRED COMPONENTS Interpreter)
+    add_test(NAME example_vulkan_host COMMAND ${Python3_EXECUTABLE}
+        ${CMAKE_CURRENT_SOURCE_DIR}/check_vulkan_host.py $<TARGET_FILE:example_vulkan_host>
+        ${CMAKE_CURRENT_BINARY_DIR}/example_vulkan_host)
+    set_tests_properties(example_vulkan_host PROPERTIES
+        LABELS vulkan TIMEOUT ${CREVICE_TEST_TIMEOUT} SKIP_RETURN_CODE 77)
+endif()
