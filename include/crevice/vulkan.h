@@ -108,6 +108,15 @@ typedef struct crv_vulkan_pass_desc {
     VkFormat normal_format;        /* where normals is not NONE */
     VkFormat result_format;        /* R8_UNORM (default), R16_SFLOAT, R32_SFLOAT, ... */
     VkBool32 timestamps;           /* crv_vulkan_pass_times() */
+    /* Takes depth apart by the phases of the noise tile, so that pixels which march in
+     * step read neighbouring texels: the same picture, 8 bytes a pixel more. For tiles of
+     * 2 to 8 px; others are computed as usual. Default off: see docs/gpu.md. */
+    VkBool32 deinterleave;
+    /* > 0: samples of hbao and alchemy that are farther than so many px, 16 say, read
+     * coarser levels of depth: less to fetch for large radii. Another draw of the
+     * estimate, as near to the truth, but not the picture of the CPU. Default 0: off;
+     * not together with deinterleave. */
+    int32_t level_px;
 } crv_vulkan_pass_desc;
 
 CRV_API void crv_vulkan_pass_desc_init(crv_vulkan_pass_desc *desc, size_t struct_size);
@@ -176,11 +185,12 @@ CRV_API crv_status crv_vulkan_pass_record(crv_vulkan_pass *pass, VkCommandBuffer
 
 /* The time that a step of a recording took on the device. */
 typedef struct crv_vulkan_time {
-    const char *name; /* "depth", "normals", the method's or filter's name */
+    const char *name; /* "depth", "normals", "deinterleave", "levels", the method's
+                         or filter's name */
     double time_ms;
 } crv_vulkan_time;
 
-#define CRV_VULKAN_MAX_TIMES 8
+#define CRV_VULKAN_MAX_TIMES 16
 
 /*
  * Times of the last recording of the frame in flight `index`, once it has been executed.

@@ -70,6 +70,7 @@ static void plan_destroy(const crv__setup *setup, void *data)
 static crv_status plan_create(const crv__setup *setup, const crv__plane *rectangle,
                               void **out)
 {
+    static const crv__program_desc PROGRAM = {.edge = 1};
     static const crv__slot_desc SLOT = {VK_FORMAT_R32G32B32A32_SFLOAT,
                                         VK_FORMAT_R32_SFLOAT, 0};
     const crv__device *d = crv__device_of(setup->context);
@@ -83,7 +84,7 @@ static crv_status plan_create(const crv__setup *setup, const crv__plane *rectang
     plan_state *state = crv__allocate(&setup->context->allocator, 1, sizeof *state);
     if (!state)
         return crv__fail(&d->logger, CRV_ERROR_OUT_OF_MEMORY, "plan: out of memory");
-    status = crv__program_create(&state->program, d, setup, 0);
+    status = crv__program_create(&state->program, d, setup, &PROGRAM);
     if (status == CRV_OK)
         status = crv__slot_create(&state->slot, &state->program, setup, &SLOT);
     if (status == CRV_OK)

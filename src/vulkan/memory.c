@@ -72,45 +72,54 @@ void crv__buffer_destroy(crv__buffer *b, const crv__device *d)
     *b = (crv__buffer){0};
 }
 
-static VkResult create_view(const crv__device *d, const crv__image *i, VkFormat format,
-                            VkImageViewType type, int32_t first, int32_t count,
+static VkResult create_view(const crv__device *d, const crv__image *i,
+                            VkImageViewType type, VkImageSubresourceRange range,
                             VkImageView *out)
 {
     const VkImageViewCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
                                         .image = i->image,
                                         .viewType = type,
-                                        .format = format,
-                                        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0,
-                                                             1, (uint32_t)first,
-                                                             (uint32_t)count}};
+                                        .format = i->desc.format,
+                                        .subresourceRange = range};
     return d->vk.CreateImageView(d->device, &info, d->callbacks, out);
 }
 
-static VkResult create_views(const crv__device *d, crv__image *i, VkFormat format)
+static VkResult create_views(const crv__device *d, crv__image *i)
 {
-    if (i->layers == 0)
-        return create_view(d, i, format, VK_IMAGE_VIEW_TYPE_2D, 0, 1, &i->view);
-    VkResult result =
-        create_view(d, i, format, VK_IMAGE_VIEW_TYPE_2D_ARRAY, 0, i->layers, &i->view);
-    for (int32_t k = 0; result == VK_SUCCESS && k < i->layers; k++)
-        result = create_view(d, i, format, VK_IMAGE_VIEW_TYPE_2D, k, 1, &i->layer[k]);
+    const int32_t layers = i->desc.layers;
+    const VkImageViewType type =
+        layers ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
+    VkImageSubresourceRange range = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0,
+                                     VK_REMAINING_ARRAY_LAYERS};
+    VkResult result = create_view(d, i, type, range, &i->view);
+    range.levelCount = VK_REMAINING_MIP_LEVELS;
+    if (result == VK_SUCCESS && i->desc.levels > 1)
+        result = create_view(d, i, type, range, &i->all);
+    for (int32_t k = 0; layers <= CRV_MAX_LAYERS && k < layers; k++) {
+        for (int32_t m = 0; result == VK_SUCCESS && m < i->desc.levels; m++)
+            result =
+                create_view(d, i, VK_IMAGE_VIEW_TYPE_2D,
+                            (VkImageSubresourceRange){VK_IMAGE_ASPECT_COLOR_BIT,
+                                                      (uint32_t)m, 1, (uint32_t)k, 1},
+                            &i->part[k][m]);
+    }
     return result;
 }
 
-crv_status crv__image_create(crv__image *i, const crv__device *d, VkFormat format,
-                             int32_t width, int32_t height, int32_t layers)
+crv_status crv__image_create(crv__image *i, const crv__device *d,
+                             const crv__image_desc *desc)
 {
     const VkImageCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
         .imageType = VK_IMAGE_TYPE_2D,
-        .format = format,
-        .extent = {(uint32_t)width, (uint32_t)height, 1},
-        .mipLevels = 1,
-        .arrayLayers = layers ? (uint32_t)layers : 1,
+        .format = desc->format,
+        .extent = {(uint32_t)desc->width, (uint32_t)desc->height, 1},
+        .mipLevels = (uint32_t)desc->levels,
+        .arrayLayers = desc->layers ? (uint32_t)desc->layers : 1,
         .samples = VK_SAMPLE_COUNT_1_BIT,
         .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT
                  | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT};
-    i->layers = layers;
+    i->desc = *desc;
     VkResult result = d->vk.CreateImage(d->device, &info, d->callbacks, &i->image);
     if (result)
         return crv__device_fail(d, result, "image");
@@ -122,14 +131,16 @@ crv_status crv__image_create(crv__image *i, const crv__device *d, VkFormat forma
         result =
             d->vk.BindImageMemory(d->device, i->image, i->block.memory, i->block.offset);
     if (result == VK_SUCCESS)
-        result = create_views(d, i, format);
+        result = create_views(d, i);
     return result ? crv__device_fail(d, result, "memory of an image") : CRV_OK;
 }
 
 void crv__image_destroy(crv__image *i, const crv__device *d)
 {
-    for (int32_t k = 0; k < CRV_MAX_LAYERS; k++)
-        d->vk.DestroyImageView(d->device, i->layer[k], d->callbacks);
+    for (int32_t k = 0; k < CRV_MAX_LAYERS * CRV__MOST_LEVELS; k++)
+        d->vk.DestroyImageView(
+            d->device, i->part[k / CRV__MOST_LEVELS][k % CRV__MOST_LEVELS], d->callbacks);
+    d->vk.DestroyImageView(d->device, i->all, d->callbacks);
     d->vk.DestroyImageView(d->device, i->view, d->callbacks);
     d->vk.DestroyImage(d->device, i->image, d->callbacks);
     release(d, &i->block);

@@ -47,6 +47,9 @@ static crv_status check_desc(const crv_logger *logger, const crv_vulkan_pass_des
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "pass: normal space %d is neither view nor world",
                          (int)desc->normal_space);
+    if (desc->level_px < 0)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "pass: level_px is %d; 0 or more", desc->level_px);
     return CRV_OK;
 }
 
@@ -89,6 +92,17 @@ static VkFormat preferred(const crv__device *d, VkFormat small, VkFormat sure)
 
 /* ---- life ---- */
 
+/* By how many pixels depth is taken apart: a workgroup then has one place of the tile. */
+static int32_t apart_edge(const crv__device *d, const crv__setup *setup,
+                          const crv_vulkan_pass_desc *desc)
+{
+    const int32_t edge = setup->options.noise_size;
+    const uint32_t layers = (uint32_t)(edge * edge * setup->desc.layers);
+    const int fits =
+        edge >= 2 && edge <= 8 && layers <= d->properties.limits.maxImageArrayLayers;
+    return desc->deinterleave && fits ? edge : 1;
+}
+
 static crv_status create_parts(crv_vulkan_pass *p)
 {
     const crv__device *d = p->device;
@@ -97,9 +111,13 @@ static crv_status create_parts(crv_vulkan_pass *p)
             preferred(d, VK_FORMAT_R16G16B16A16_SNORM, VK_FORMAT_R32G32B32A32_SFLOAT),
         .accessibility_format = preferred(d, VK_FORMAT_R16_SFLOAT, VK_FORMAT_R32_SFLOAT),
         .timestamps = p->desc.timestamps && d->timestamp_bits > 0};
+    const crv__program_desc program = {.converts = 1,
+                                       .edge = apart_edge(d, &p->setup, &p->desc),
+                                       .level_px =
+                                           p->desc.deinterleave ? 0 : p->desc.level_px};
     if (crv__setup_patterns(&p->setup))
         return crv__fail(&d->logger, CRV_ERROR_OUT_OF_MEMORY, "pass: out of memory");
-    crv_status status = crv__program_create(&p->program, d, &p->setup, 1);
+    crv_status status = crv__program_create(&p->program, d, &p->setup, &program);
     for (int32_t i = 0; status == CRV_OK && i < p->desc.frames; i++)
         status = crv__slot_create(&p->slots[i], &p->program, &p->setup, &slot);
     return status;
@@ -289,6 +307,30 @@ static void record_between(const crv__device *d, VkCommandBuffer commands)
         (crv__access){CRV__SAMPLED.stages, CRV__SAMPLED.access | CRV__WRITTEN.access});
 }
 
+/* Other layouts of depth, none of which waits for another or for the normals. */
+static void record_layouts(crv_vulkan_pass *p, crv__slot *slot, VkCommandBuffer commands,
+                           crv__push *push)
+{
+    const crv_gbuffer_desc *g = &p->setup.desc;
+    if (p->program.deinterleave.pipeline) {
+        crv__slot_record_step(slot, commands, &p->program.deinterleave, slot->apart_set,
+                              push);
+        crv__slot_record_time(slot, commands);
+    }
+    if (!p->program.prefilter.pipeline)
+        return;
+    for (push->layer = 0; push->layer < g->layers; push->layer++) {
+        for (push->pass = 1; push->pass < slot->depth.desc.levels; push->pass++) {
+            set_out(push, (crv__rectangle){0, 0, g->width >> push->pass,
+                                           g->height >> push->pass});
+            crv__slot_record_step(slot, commands, &p->program.prefilter,
+                                  slot->level_set[push->layer][push->pass], push);
+        }
+    }
+    push->layer = push->pass = 0;
+    crv__slot_record_time(slot, commands);
+}
+
 static void record_converts(crv_vulkan_pass *p, crv__slot *slot, VkCommandBuffer commands,
                             const crv_vulkan_frame *frame, crv__push *push)
 {
@@ -299,6 +341,7 @@ static void record_converts(crv_vulkan_pass *p, crv__slot *slot, VkCommandBuffer
         const crv_vulkan_input *depth = &frame->depth[push->layer];
         crv__bind_image(&p->program, set, CRV__BIND_HOST, depth->view, depth->layout);
         crv__slot_record_step(slot, commands, &p->program.depth, set, push);
+        crv__slot_record_time(slot, commands);
     }
     push->layer = 0;
     record_between(p->device, commands);
@@ -306,6 +349,8 @@ static void record_converts(crv_vulkan_pass *p, crv__slot *slot, VkCommandBuffer
         crv__bind_image(&p->program, slot->normals_set, CRV__BIND_HOST,
                         frame->normals.view, frame->normals.layout);
     crv__slot_record_step(slot, commands, &p->program.normals, slot->normals_set, push);
+    crv__slot_record_time(slot, commands);
+    record_layouts(p, slot, commands, push);
     record_between(p->device, commands);
 }
 
@@ -328,11 +373,13 @@ static void record_passes(crv_vulkan_pass *p, crv__slot *slot, VkCommandBuffer c
                     VK_IMAGE_LAYOUT_GENERAL);
     set_out(push, passes ? slot->rectangle : result);
     crv__slot_record_step(slot, commands, &p->program.estimate, slot->estimate_set, push);
+    crv__slot_record_time(slot, commands);
     for (push->pass = 0; push->pass < passes; push->pass++) {
         record_between(p->device, commands);
         set_out(push, push->pass + 1 < passes ? slot->rectangle : result);
         crv__slot_record_step(slot, commands, &p->program.filter[push->pass],
                               slot->filter_set[push->pass], push);
+        crv__slot_record_time(slot, commands);
     }
 }
 
@@ -370,15 +417,18 @@ crv_status crv_vulkan_pass_record(crv_vulkan_pass *p, VkCommandBuffer commands,
 static const char *step_name(const crv_vulkan_pass *p, int32_t step)
 {
     static const char *const PASSES[2] = {"filter, first pass", "filter, second pass"};
-    const int32_t layers = p->setup.desc.layers;
-    if (step < layers)
+    if (step < p->setup.desc.layers)
         return "depth";
-    if (step == layers)
+    step -= p->setup.desc.layers;
+    if (step-- == 0)
         return "normals";
-    if (step == layers + 1)
+    if (p->program.deinterleave.pipeline && step-- == 0)
+        return "deinterleave";
+    if (p->program.prefilter.pipeline && step-- == 0)
+        return "levels";
+    if (step-- == 0)
         return p->setup.method->info.name;
-    return p->program.passes == 1 ? p->setup.filter->info.name
-                                  : PASSES[step - layers - 2];
+    return p->program.passes == 1 ? p->setup.filter->info.name : PASSES[step];
 }
 
 crv_status crv_vulkan_pass_times(crv_vulkan_pass *p, int32_t index,

@@ -40,8 +40,9 @@ crv_status crv__setup_check(const crv__device *d, const crv__setup *setup)
 }
 
 /* All that a shader may have fixed; -1: read from the buffers. */
-static void clear_specs(int32_t group, int32_t specs[CRV__SPECS])
+static void clear_specs(crv__pipeline *pipeline, int32_t group, int32_t specs[CRV__SPECS])
 {
+    *pipeline = (crv__pipeline){.group = group, .interleave = 1};
     for (int i = 0; i < CRV__SPECS; i++)
         specs[i] = -1;
     specs[CRV__SPEC_SIZE_X] = specs[CRV__SPEC_SIZE_Y] = group;
@@ -53,7 +54,10 @@ static crv_status take_estimate(crv__program *p, const crv__setup *setup, int32_
 {
     const crv_options *o = &setup->options;
     int32_t specs[CRV__SPECS];
-    clear_specs(group, specs);
+    clear_specs(&p->estimate, group, specs);
+    specs[CRV__SPEC_INTERLEAVE] = specs[CRV__SPEC_DEPTH_EDGE] = p->estimate.interleave =
+        p->desc.edge;
+    specs[CRV__SPEC_LOD_PX] = p->desc.level_px;
     specs[CRV__SPEC_FALLOFF] = (int32_t)o->falloff;
     specs[CRV__SPEC_DIRECTIONS] = o->directions;
     specs[CRV__SPEC_STEPS] = o->steps;
@@ -65,7 +69,6 @@ static crv_status take_estimate(crv__program *p, const crv__setup *setup, int32_
     specs[CRV__SPEC_LAYERS_SOLID] = setup->desc.layer_kind == CRV_LAYERS_SOLID;
     specs[CRV__SPEC_SPACING] = (int32_t)o->spacing;
     specs[CRV__SPEC_BIASED] = o->bias_deg > 0;
-    p->estimate.group = group;
     return crv__pipeline_take(p->device, setup->method->info.name, specs,
                               &p->estimate.pipeline);
 }
@@ -74,20 +77,19 @@ static crv_status take_filter(crv__program *p, const crv__setup *setup, int32_t 
                               int32_t pass)
 {
     int32_t specs[CRV__SPECS];
-    clear_specs(group, specs);
+    clear_specs(&p->filter[pass], group, specs);
     specs[CRV__SPEC_FILTER_SLOPE] = setup->options.filter_slope;
     specs[CRV__SPEC_FILTER_PASS] = pass;
-    p->filter[pass].group = group;
     return crv__pipeline_take(p->device, setup->filter->info.name, specs,
                               &p->filter[pass].pipeline);
 }
 
-static crv_status take_convert(crv__program *p, const char *shader, int32_t group,
-                               crv__pipeline *out)
+static crv_status take_other(crv__program *p, const char *shader, int32_t group,
+                             int32_t edge, crv__pipeline *out)
 {
     int32_t specs[CRV__SPECS];
-    clear_specs(group, specs);
-    out->group = group;
+    clear_specs(out, group, specs);
+    specs[CRV__SPEC_INTERLEAVE] = specs[CRV__SPEC_DEPTH_EDGE] = out->interleave = edge;
     return crv__pipeline_take(p->device, shader, specs, &out->pipeline);
 }
 
@@ -97,16 +99,20 @@ static int32_t filter_group(const crv__device *d)
     return d->properties.limits.maxComputeWorkGroupInvocations >= 256 ? 16 : 8;
 }
 
-static crv_status take_pipelines(crv__program *p, const crv__setup *setup, int converts)
+static crv_status take_pipelines(crv__program *p, const crv__setup *setup)
 {
     enum { GROUP = 8 };
     crv_status status = take_estimate(p, setup, GROUP);
     for (int32_t i = 0; status == CRV_OK && i < p->passes; i++)
         status = take_filter(p, setup, filter_group(p->device), i);
-    if (status == CRV_OK && converts)
-        status = take_convert(p, "depth_convert", GROUP, &p->depth);
-    if (status == CRV_OK && converts)
-        status = take_convert(p, "normals_convert", GROUP, &p->normals);
+    if (status == CRV_OK && p->desc.converts)
+        status = take_other(p, "depth_convert", GROUP, 1, &p->depth);
+    if (status == CRV_OK && p->desc.converts)
+        status = take_other(p, "normals_convert", GROUP, 1, &p->normals);
+    if (status == CRV_OK && p->desc.edge > 1)
+        status = take_other(p, "deinterleave", GROUP, p->desc.edge, &p->deinterleave);
+    if (status == CRV_OK && p->desc.level_px > 0)
+        status = take_other(p, "prefilter", GROUP, 1, &p->prefilter);
     return status;
 }
 
@@ -143,12 +149,13 @@ static crv_status create_constants(crv__program *p, const crv__setup *setup)
 }
 
 crv_status crv__program_create(crv__program *p, const crv__device *device,
-                               const crv__setup *setup, int converts)
+                               const crv__setup *setup, const crv__program_desc *desc)
 {
     *p = (crv__program){.device = device,
+                        .desc = *desc,
                         .passes = setup->filter ? setup->filter->passes : 0};
     const crv_status status = create_constants(p, setup);
-    return status ? status : take_pipelines(p, setup, converts);
+    return status ? status : take_pipelines(p, setup);
 }
 
 void crv__program_destroy(crv__program *p)
@@ -156,9 +163,10 @@ void crv__program_destroy(crv__program *p)
     const crv__device *d = p->device;
     if (!d)
         return;
-    const VkPipeline pipelines[] = {p->depth.pipeline, p->normals.pipeline,
-                                    p->estimate.pipeline, p->filter[0].pipeline,
-                                    p->filter[1].pipeline};
+    const VkPipeline pipelines[] = {p->depth.pipeline,     p->normals.pipeline,
+                                    p->estimate.pipeline,  p->filter[0].pipeline,
+                                    p->filter[1].pipeline, p->deinterleave.pipeline,
+                                    p->prefilter.pipeline};
     for (size_t i = 0; i < sizeof pipelines / sizeof pipelines[0]; i++)
         crv__pipeline_give(d, pipelines[i]);
     crv__buffer_destroy(&p->constants, d);

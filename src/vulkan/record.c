@@ -68,10 +68,11 @@ void crv__slot_record_begin(crv__slot *s, VkCommandBuffer commands)
         VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT
             | VK_ACCESS_2_TRANSFER_WRITE_BIT};
     const VkImage images[] = {s->depth.image, s->normals.image, s->accessibility[0].image,
-                              s->accessibility[1].image};
-    VkImageMemoryBarrier2 barriers[4];
+                              s->accessibility[1].image, s->apart.image};
+    enum { IMAGES = sizeof images / sizeof images[0] };
+    VkImageMemoryBarrier2 barriers[IMAGES];
     uint32_t count = 0;
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < IMAGES; i++) {
         if (images[i])
             barriers[count++] = image_barrier(images[i], VK_IMAGE_LAYOUT_UNDEFINED,
                                               VK_IMAGE_LAYOUT_GENERAL, earlier, writes);
@@ -94,15 +95,20 @@ void crv__slot_record_step(crv__slot *s, VkCommandBuffer commands,
 {
     const crv__program *p = s->program;
     const crv__device *d = p->device;
-    const int32_t group = pipeline->group;
+    const int32_t step = pipeline->interleave, tile = pipeline->group * step;
     d->vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
     d->vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
                                 d->pipelines->layout, 0, 1, &set, 0, NULL);
     d->vk.CmdPushConstants(commands, d->pipelines->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                            sizeof *push, push);
-    d->vk.CmdDispatch(commands, (uint32_t)((push->out_width + group - 1) / group),
-                      (uint32_t)((push->out_height + group - 1) / group), 1);
+    d->vk.CmdDispatch(commands, (uint32_t)((push->out_width + tile - 1) / tile * step),
+                      (uint32_t)((push->out_height + tile - 1) / tile * step), 1);
+}
+
+void crv__slot_record_time(crv__slot *s, VkCommandBuffer commands)
+{
     if (s->queries)
-        d->vk.CmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                                 s->queries, (uint32_t)s->query_count++);
+        s->program->device->vk.CmdWriteTimestamp2(commands,
+                                                  VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                                  s->queries, (uint32_t)s->query_count++);
 }

@@ -54,7 +54,7 @@ static void bind_all(crv__slot *s, VkDescriptorSet set, VkImageView input,
         crv__bind_image(s->program, set, i, views[i], VK_IMAGE_LAYOUT_GENERAL);
 }
 
-enum { SETS = CRV_MAX_LAYERS + 2 + CRV__MOST_PASSES };
+enum { SETS = CRV_MAX_LAYERS + 3 + CRV__MOST_PASSES + CRV_MAX_LAYERS * CRV__MOST_LEVELS };
 
 static VkResult create_sets(crv__slot *s)
 {
@@ -88,7 +88,10 @@ static VkResult create_sets(crv__slot *s)
     memcpy(s->depth_set, sets, sizeof s->depth_set);
     s->normals_set = sets[CRV_MAX_LAYERS];
     s->estimate_set = sets[CRV_MAX_LAYERS + 1];
-    memcpy(s->filter_set, sets + CRV_MAX_LAYERS + 2, sizeof s->filter_set);
+    s->apart_set = sets[CRV_MAX_LAYERS + 2];
+    memcpy(s->filter_set, sets + CRV_MAX_LAYERS + 3, sizeof s->filter_set);
+    memcpy(s->level_set, sets + CRV_MAX_LAYERS + 3 + CRV__MOST_PASSES,
+           sizeof s->level_set);
     return VK_SUCCESS;
 }
 
@@ -97,13 +100,23 @@ static void bind_sets(crv__slot *s)
     const VkImageView first = s->accessibility[0].view;
     const VkImageView second =
         s->accessibility[1].view ? s->accessibility[1].view : first;
-    for (int32_t i = 0; i < CRV_MAX_LAYERS; i++)
-        bind_all(s, s->depth_set[i], first,
-                 s->depth.layer[i] ? s->depth.layer[i] : s->depth.layer[0]);
+    for (int32_t i = 0; i < s->depth.desc.layers; i++) {
+        bind_all(s, s->depth_set[i], first, s->depth.part[i][0]);
+        for (int32_t m = 1; m < s->depth.desc.levels; m++)
+            bind_all(s, s->level_set[i][m], first, s->depth.part[i][m]);
+    }
     bind_all(s, s->normals_set, first, s->normals.view);
     bind_all(s, s->estimate_set, second, first);
     bind_all(s, s->filter_set[0], first, second);
     bind_all(s, s->filter_set[1], second, first);
+    if (s->depth.all)
+        crv__bind_image(s->program, s->estimate_set, CRV__BIND_DEPTH, s->depth.all,
+                        VK_IMAGE_LAYOUT_GENERAL);
+    if (!s->apart.image)
+        return;
+    bind_all(s, s->apart_set, first, s->apart.view);
+    crv__bind_image(s->program, s->estimate_set, CRV__BIND_DEPTH, s->apart.view,
+                    VK_IMAGE_LAYOUT_GENERAL);
 }
 
 /* ---- life ---- */
@@ -119,19 +132,37 @@ static crv_status create_queries(crv__slot *s)
     return result ? crv__device_fail(d, result, "timestamps") : CRV_OK;
 }
 
+/* Down to a few texels, or one level where coarser ones are not read. */
+static int32_t level_count(const crv__program *p, const crv_gbuffer_desc *g)
+{
+    int32_t levels = 1;
+    while (p->desc.level_px > 0 && levels < CRV__MOST_LEVELS && g->width >> levels > 4
+           && g->height >> levels > 4)
+        levels++;
+    return levels;
+}
+
 static crv_status create_images(crv__slot *s, const crv__setup *setup,
                                 const crv__slot_desc *desc)
 {
-    const crv__device *d = s->program->device;
+    const crv__program *p = s->program;
     const crv_gbuffer_desc *g = &setup->desc;
-    crv_status status = crv__image_create(&s->depth, d, VK_FORMAT_R32_SFLOAT, g->width,
-                                          g->height, g->layers);
+    const int32_t edge = p->desc.edge;
+    const crv__image_desc depth = {VK_FORMAT_R32_SFLOAT, g->width, g->height, g->layers,
+                                   level_count(p, g)},
+                          normals = {desc->normal_format, g->width, g->height, 0, 1},
+                          accessibility = {desc->accessibility_format, s->rectangle.width,
+                                           s->rectangle.height, 0, 1},
+                          apart = {VK_FORMAT_R32_SFLOAT, (g->width + edge - 1) / edge,
+                                   (g->height + edge - 1) / edge, g->layers * edge * edge,
+                                   1};
+    crv_status status = crv__image_create(&s->depth, p->device, &depth);
     if (status == CRV_OK)
-        status = crv__image_create(&s->normals, d, desc->normal_format, g->width,
-                                   g->height, 0);
-    for (int i = 0; status == CRV_OK && i < (s->program->passes ? 2 : 1); i++)
-        status = crv__image_create(&s->accessibility[i], d, desc->accessibility_format,
-                                   s->rectangle.width, s->rectangle.height, 0);
+        status = crv__image_create(&s->normals, p->device, &normals);
+    for (int i = 0; status == CRV_OK && i < (p->passes ? 2 : 1); i++)
+        status = crv__image_create(&s->accessibility[i], p->device, &accessibility);
+    if (status == CRV_OK && edge > 1)
+        status = crv__image_create(&s->apart, p->device, &apart);
     return status;
 }
 
@@ -162,6 +193,7 @@ void crv__slot_destroy(crv__slot *s)
     const crv__device *d = s->program->device;
     d->vk.DestroyQueryPool(d->device, s->queries, d->callbacks);
     d->vk.DestroyDescriptorPool(d->device, s->pool, d->callbacks);
+    crv__image_destroy(&s->apart, d);
     crv__image_destroy(&s->accessibility[1], d);
     crv__image_destroy(&s->accessibility[0], d);
     crv__image_destroy(&s->normals, d);
@@ -173,5 +205,5 @@ void crv__slot_destroy(crv__slot *s)
 uint64_t crv__slot_bytes(const crv__slot *s)
 {
     return s->params.size + s->depth.size + s->normals.size + s->accessibility[0].size
-           + s->accessibility[1].size;
+           + s->accessibility[1].size + s->apart.size;
 }

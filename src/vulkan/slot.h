@@ -6,17 +6,20 @@
 
 #include "vulkan/program.h"
 
-enum { CRV__MOST_STEPS = CRV_MAX_LAYERS + 2 + CRV__MOST_PASSES };
+/* Steps that are timed: the levels of depth count as one. */
+enum { CRV__MOST_STEPS = CRV_MAX_LAYERS + 4 + CRV__MOST_PASSES };
 
 typedef struct crv__slot {
     const crv__program *program;
     crv__rectangle rectangle; /* of the accessibility images */
     crv__buffer params;
     crv__image depth, normals, accessibility[2];
+    crv__image apart; /* depth taken apart, where the program says so */
     VkDescriptorPool pool;
     /* Converts; the estimate, into accessibility[0]; filter passes, to and fro. */
     VkDescriptorSet depth_set[CRV_MAX_LAYERS], normals_set, estimate_set,
-        filter_set[CRV__MOST_PASSES];
+        filter_set[CRV__MOST_PASSES], apart_set,
+        level_set[CRV_MAX_LAYERS][CRV__MOST_LEVELS];
     VkQueryPool queries; /* VK_NULL_HANDLE: none */
     int32_t query_count;
 } crv__slot;
@@ -62,5 +65,8 @@ void crv__slot_record_begin(crv__slot *s, VkCommandBuffer commands);
 void crv__slot_record_step(crv__slot *s, VkCommandBuffer commands,
                            const crv__pipeline *pipeline, VkDescriptorSet set,
                            const crv__push *push);
+
+/* Notes the time at which all before is done. */
+void crv__slot_record_time(crv__slot *s, VkCommandBuffer commands);
 
 #endif
