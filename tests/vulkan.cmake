@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: MIT
+# The Vulkan backend, on whatever device is first: lavapipe where there is no GPU. Tests
+# are skipped where there is none, unless CI is set.
+add_executable(test_vulkan_agreement test_vulkan_agreement.c simd_case.c)
+target_link_libraries(test_vulkan_agreement PRIVATE crevice::crevice crevice_flags m)
+# The seed is fixed, so that a change is judged by itself; by hand every run has another.
+add_test(NAME test_vulkan_agreement COMMAND test_vulkan_agreement --seed 1)
+
+# The suites of the CPU, unchanged.
+foreach(suite conformance closed_forms filters)
+    add_test(NAME vulkan_${suite} COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/on_vulkan.sh
+        $<TARGET_FILE:test_vulkan_agreement> $<TARGET_FILE:test_${suite}>)
+    list(APPEND crevice_vulkan_tests vulkan_${suite})
+endforeach()
+set_tests_properties(test_vulkan_agreement ${crevice_vulkan_tests} PROPERTIES
+    LABELS vulkan TIMEOUT 600 SKIP_RETURN_CODE 77)
+
+# The example that is a renderer of its own, under the validation layer.
+if(TARGET example_vulkan_host)
+    find_package(Python3 REQUIRED COMPONENTS Interpreter)
+    add_test(NAME example_vulkan_host COMMAND ${Python3_EXECUTABLE}
+        ${CMAKE_CURRENT_SOURCE_DIR}/check_vulkan_host.py $<TARGET_FILE:example_vulkan_host>
+        ${CMAKE_CURRENT_BINARY_DIR}/example_vulkan_host)
+    set_tests_properties(example_vulkan_host PROPERTIES
+        LABELS vulkan TIMEOUT ${CREVICE_TEST_TIMEOUT} SKIP_RETURN_CODE 77)
+endif()
