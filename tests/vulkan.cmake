@@ -24,3 +24,19 @@ if(TARGET example_vulkan_host)
     set_tests_properties(example_vulkan_host PROPERTIES
         LABELS vulkan TIMEOUT ${CREVICE_TEST_TIMEOUT} SKIP_RETURN_CODE 77)
 endif()
+
+# What renderers call, under the validation layer.
+find_package(Vulkan QUIET)
+if(Vulkan_FOUND)
+    foreach(test test_vulkan_pass)
+        crevice_test(${test} SOURCES ${test}.c vulkan_engine.c
+                ${PROJECT_SOURCE_DIR}/examples/vulkan_host_setup.c
+            LIBS crevice_fixture Vulkan::Vulkan)
+        set_tests_properties(${test} PROPERTIES LABELS vulkan SKIP_RETURN_CODE 77)
+    endforeach()
+endif()
+
+if(TARGET crevice_tool)
+    tool_test(tool_vulkan)
+    set_tests_properties(tool_vulkan PROPERTIES LABELS vulkan TIMEOUT 600)
+endif()
