@@ -15,6 +15,19 @@ endforeach()
 set_tests_properties(test_vulkan_agreement ${crevice_vulkan_tests} PROPERTIES
     LABELS vulkan TIMEOUT 600 SKIP_RETURN_CODE 77)
 
+# Plans under the validation layer, with synchronisation and best practices, and once more
+# with the shaders instrumented.
+foreach(enabled
+        "SYNCHRONIZATION_VALIDATION_EXT:VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT"
+        GPU_ASSISTED_EXT)
+    string(REGEX REPLACE "_.*" "" name ${enabled})
+    string(TOLOWER vulkan_validation_${name} name)
+    add_test(NAME ${name} COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/validated.sh
+        VK_VALIDATION_FEATURE_ENABLE_${enabled} $<TARGET_FILE:test_vulkan_agreement>
+        --seed 1 --cases 5)
+    set_tests_properties(${name} PROPERTIES LABELS vulkan TIMEOUT 600 SKIP_RETURN_CODE 77)
+endforeach()
+
 # The example that is a renderer of its own, under the validation layer.
 if(TARGET example_vulkan_host)
     find_package(Python3 REQUIRED COMPONENTS Interpreter)
