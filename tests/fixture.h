@@ -61,6 +61,9 @@ typedef struct fixture_run {
     const crv_depth_format *format; /* what the fixture's depth holds; NULL: planar */
 } fixture_run;
 
+/* Whether frames are computed on a Vulkan device: CREVICE_TEST_DEVICE is "vulkan". */
+int fixture_on_vulkan(void);
+
 /* Computes a frame and returns the result's pixels, which the caller frees. Any error
  * fails the test. */
 float *fixture_compute(const fixture *f, const crv_options *options,

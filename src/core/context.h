@@ -17,6 +17,7 @@ struct crv_context {
     uint32_t isa_mask; /* never 0 */
     int32_t exact;     /* 0 or 1 */
     const crv__backend *backend;
+    void *device; /* the backend's; NULL: none */
 };
 
 static inline void crv__run_parallel(const crv_context *context, uint32_t count,
@@ -24,5 +25,10 @@ static inline void crv__run_parallel(const crv_context *context, uint32_t count,
 {
     crv__parallel_for(&context->parallel, context->threads, count, task, data);
 }
+
+/* The same for rows 0 to height - 1 of a picture, with groups of them as tasks, so that
+ * fetching one costs little even where a row takes a microsecond. */
+void crv__run_rows(const crv_context *context, int32_t height,
+                   void (*row)(void *data, uint32_t y), void *data);
 
 #endif

@@ -58,14 +58,24 @@ float crv__depth_map_apply(const crv__depth_map *map, int32_t x, int32_t y, floa
     return d > 0 && d < INFINITY ? d : INFINITY; /* NaN fails both */
 }
 
+/* The specification of crv__conversions.depth_row. */
+static void depth_row(const crv__depth_map *map, const float *from, ptrdiff_t stride,
+                      int32_t y, int32_t count, float *out)
+{
+    for (int32_t x = 0; x < count; x++)
+        out[x] = crv__depth_map_apply(map, x, y, from[x * stride]);
+}
+
 static void convert_row(void *data, uint32_t row)
 {
     const depth_job *job = data;
     const int32_t y = (int32_t)row;
     float *out = crv__plane_at(&job->gbuffer->depth[job->layer], 0, y);
-    for (int32_t x = 0; x < job->gbuffer->desc.width; x++)
-        out[x] =
-            crv__depth_map_apply(&job->map, x, y, *crv_image_at(job->image, x, y, 0));
+    const crv__conversions *kernels = crv__cpu_conversions(job->gbuffer->context);
+    (kernels ? kernels->depth_row
+             : depth_row)(&job->map, crv_image_at(job->image, 0, y, 0),
+                          job->image->pixel_stride / (ptrdiff_t)sizeof(float), y,
+                          job->gbuffer->desc.width, out);
 }
 
 /* The affine map of a hardware depth. Standard: v = 0 at near, 1 at far; reversed: 1 - v.
@@ -83,9 +93,9 @@ static void hardware_coefficients(crv__depth_map *map)
     map->b = reversed ? at_near - at_far : at_far - at_near;
 }
 
-static crv_status check_format(const crv_gbuffer *g, const crv_depth_format *format)
+static crv_status check_format(const crv_logger *logger, const crv_camera *camera,
+                               const crv_depth_format *format)
 {
-    const crv_logger *logger = &g->context->logger;
     const crv_depth_encoding encoding = format->encoding;
     if (encoding < CRV_DEPTH_PLANAR || encoding > CRV_DEPTH_DISPARITY)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT, "depth: unknown encoding %d",
@@ -97,7 +107,7 @@ static crv_status check_format(const crv_gbuffer *g, const crv_depth_format *for
                          (double)format->background);
     if (encoding != CRV_DEPTH_HARDWARE && encoding != CRV_DEPTH_REVERSED)
         return CRV_OK;
-    const int orthographic = g->camera.projection == CRV_ORTHOGRAPHIC;
+    const int orthographic = camera->projection == CRV_ORTHOGRAPHIC;
     const int near_valid =
         isfinite(format->z_near) && (orthographic || format->z_near > 0);
     const int far_valid =
@@ -111,12 +121,12 @@ static crv_status check_format(const crv_gbuffer *g, const crv_depth_format *for
         (double)format->z_near, (double)format->z_far);
 }
 
-crv_status crv__depth_map_init(crv__depth_map *map, const crv_gbuffer *g,
-                               const crv_depth_format *format)
+crv_status crv__depth_map_init(crv__depth_map *map, const crv_logger *logger,
+                               const crv_camera *camera, const crv_depth_format *format)
 {
-    *map = (crv__depth_map){.camera = &g->camera,
+    *map = (crv__depth_map){.camera = camera,
                             .format = format ? *format : crv_depth_format_planar()};
-    const crv_status status = check_format(g, &map->format);
+    const crv_status status = check_format(logger, camera, &map->format);
     if (status)
         return status;
     if (map->format.encoding == CRV_DEPTH_HARDWARE
@@ -142,10 +152,10 @@ crv_status crv_gbuffer_set_depth(crv_gbuffer *g, int32_t layer, const crv_image 
     if (status)
         return status;
     depth_job job = {.gbuffer = g, .image = image, .layer = layer};
-    status = crv__depth_map_init(&job.map, g, format);
+    status = crv__depth_map_init(&job.map, logger, &g->camera, format);
     if (status)
         return status;
-    crv__run_parallel(g->context, (uint32_t)g->desc.height, convert_row, &job);
+    crv__run_rows(g->context, g->desc.height, convert_row, &job);
     g->has_depth |= 1u << layer;
     if (layer == 0)
         g->normals_ready = 0; /* those made from the depth before are out of date */

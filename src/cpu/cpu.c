@@ -54,10 +54,6 @@ static void estimate_row(const tiles *t, int32_t x0, int32_t x1, int32_t y, floa
 static void filter_row(const tiles *t, int32_t x0, int32_t x1, int32_t y, float *out)
 {
     const crv__frame *frame = t->work->frame;
-    if (t->filter_kernel) {
-        t->filter_kernel(frame, t->input, t->pass, x0, x1, y, out);
-        return;
-    }
     for (int32_t x = x0; x < x1; x++) {
         const float own = *crv__plane_at(t->input, x, y);
         if (is_background(t, x, y))
@@ -182,15 +178,51 @@ static void estimate(const crv__work *work, const crv__plane *out)
 static void filter_pass(const crv__work *work, int32_t pass, const crv__plane *input,
                         const crv__plane *out)
 {
-    const crv__filter *filter = work->setup->filter;
     tiles t = {.work = work,
-               .filter = filter,
-               .filter_kernel = crv__kernels_filter(kernels_for(work), filter->info.name),
+               .filter = work->setup->filter,
                .pass = pass,
                .input = input,
                .out = out,
                .row = filter_row};
     run_tiles(&t);
+}
+
+static void run_filter_tile(void *data, uint32_t index)
+{
+    const tiles *t = data;
+    const crv__plane *out = t->out;
+    const int32_t x0 =
+        out->x0 + (int32_t)(index % (uint32_t)t->columns) * CRV__FILTER_TILE_WIDTH;
+    const int32_t y0 =
+        out->y0 + (int32_t)(index / (uint32_t)t->columns) * CRV__FILTER_TILE_HEIGHT;
+    const int32_t right = out->x0 + out->width, bottom = out->y0 + out->height;
+    const int32_t x1 = x0 + CRV__FILTER_TILE_WIDTH, y1 = y0 + CRV__FILTER_TILE_HEIGHT;
+    const crv__tile tile = {x0, x1 < right ? x1 : right, y0, y1 < bottom ? y1 : bottom};
+    t->filter_kernel(t->work->frame, t->input, out, tile);
+}
+
+/* All passes at once, from planes[0] to planes[1]. What the host gives to be filtered
+ * alone has nothing beyond the guard band: the kernel is not shown that part. */
+static void filter_with(const crv__work *work, crv__filter_kernel kernel, int filter_only,
+                        const crv__plane planes[2])
+{
+    const crv_gbuffer_desc *d = &work->setup->desc;
+    crv__plane shown[2] = {planes[0], planes[1]};
+    for (int i = 0; i < 2 && filter_only; i++) {
+        crv__plane *p = &shown[i];
+        p->data = crv__plane_at(p, d->guard_left, d->guard_top);
+        p->x0 = d->guard_left;
+        p->y0 = d->guard_top;
+        p->width = d->width - d->guard_left - d->guard_right;
+        p->height = d->height - d->guard_top - d->guard_bottom;
+    }
+    tiles t = {
+        .work = work, .filter_kernel = kernel, .input = &shown[0], .out = &shown[1]};
+    t.columns = (t.out->width + CRV__FILTER_TILE_WIDTH - 1) / CRV__FILTER_TILE_WIDTH;
+    const int32_t rows =
+        (t.out->height + CRV__FILTER_TILE_HEIGHT - 1) / CRV__FILTER_TILE_HEIGHT;
+    crv__run_parallel(work->setup->context, (uint32_t)t.columns * (uint32_t)rows,
+                      run_filter_tile, &t);
 }
 
 static crv_status plan_create(const crv__setup *setup, const crv__plane *rectangle,
@@ -213,13 +245,21 @@ static void plan_destroy(const crv__setup *setup, void *state)
 static crv_status run(const crv__work *work, int filter_only, const crv__plane planes[2],
                       const crv__plane **result)
 {
-    const int32_t passes = work->setup->filter ? work->setup->filter->passes : 0;
+    const crv__filter *filter = work->setup->filter;
+    const crv__filter_kernel kernel =
+        filter ? crv__kernels_filter(kernels_for(work), filter->info.name) : NULL;
+    const int32_t passes = filter && !kernel ? filter->passes : 0;
     if (!filter_only)
         estimate(work, &planes[0]);
+    if (kernel) {
+        filter_with(work, kernel, filter_only, planes);
+        *result = &planes[1];
+        return CRV_OK;
+    }
     for (int32_t pass = 0; pass < passes; pass++)
         filter_pass(work, pass, &planes[pass % 2], &planes[(pass + 1) % 2]);
     *result = &planes[passes % 2];
     return CRV_OK;
 }
 
-const crv__backend crv__cpu_backend = {"cpu", plan_create, plan_destroy, run};
+const crv__backend crv__cpu_backend = {"cpu", plan_create, plan_destroy, run, NULL};

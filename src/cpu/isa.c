@@ -87,6 +87,12 @@ const crv__kernels *crv__kernels_best(uint32_t allowed)
     return best(allowed)->kernels;
 }
 
+const crv__conversions *crv__cpu_conversions(const crv_context *context)
+{
+    const crv__kernels *kernels = crv__kernels_best(context->isa_mask);
+    return kernels ? &kernels->conversions : NULL;
+}
+
 crv__estimate_kernel crv__kernels_estimate(const crv__kernels *kernels, const char *name)
 {
     for (const crv__named_estimate *e = kernels ? kernels->estimates : NULL; e && e->name;

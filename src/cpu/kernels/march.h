@@ -78,8 +78,11 @@ CRV__INLINE crv__texels crv__lanes_texels(const crv__params *p, crv__shape shape
 {
     const vf unit = -Q.z;
     vf x = vf_set(p->fx) * Q.x, y = vf_set(p->fy) * Q.y;
-    if (!shape.orthographic)
-        vf_quotients(x, y, unit, &x, &y);
+    if (!shape.orthographic) {
+        /* The reciprocal would do for both, but not to the bit. */
+        x = x / unit;
+        y = y / unit;
+    }
     crv__texels texels = {vi_floor(vf_set(p->cx) + x), vi_floor(vf_set(p->cy) - y),
                           active};
     if (!shape.within) {
