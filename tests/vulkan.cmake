@@ -15,6 +15,19 @@ endforeach()
 set_tests_properties(test_vulkan_agreement ${crevice_vulkan_tests} PROPERTIES
     LABELS vulkan TIMEOUT 600 SKIP_RETURN_CODE 77)
 
+# Plans under the validation layer, with synchronisation and best practices, and once more
+# with the shaders instrumented.
+foreach(enabled
+        "SYNCHRONIZATION_VALIDATION_EXT:VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT"
+        GPU_ASSISTED_EXT)
+    string(REGEX REPLACE "_.*" "" name ${enabled})
+    string(TOLOWER vulkan_validation_${name} name)
+    add_test(NAME ${name} COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/validated.sh
+        VK_VALIDATION_FEATURE_ENABLE_${enabled} $<TARGET_FILE:test_vulkan_agreement>
+        --seed 1 --cases 5)
+    set_tests_properties(${name} PROPERTIES LABELS vulkan TIMEOUT 600 SKIP_RETURN_CODE 77)
+endforeach()
+
 # The example that is a renderer of its own, under the validation layer.
 if(TARGET example_vulkan_host)
     find_package(Python3 REQUIRED COMPONENTS Interpreter)
@@ -23,4 +36,20 @@ if(TARGET example_vulkan_host)
         ${CMAKE_CURRENT_BINARY_DIR}/example_vulkan_host)
     set_tests_properties(example_vulkan_host PROPERTIES
         LABELS vulkan TIMEOUT ${CREVICE_TEST_TIMEOUT} SKIP_RETURN_CODE 77)
+endif()
+
+# What renderers call, under the validation layer.
+find_package(Vulkan QUIET)
+if(Vulkan_FOUND)
+    foreach(test test_vulkan_pass)
+        crevice_test(${test} SOURCES ${test}.c vulkan_engine.c
+                ${PROJECT_SOURCE_DIR}/examples/vulkan_host_setup.c
+            LIBS crevice_fixture Vulkan::Vulkan)
+        set_tests_properties(${test} PROPERTIES LABELS vulkan SKIP_RETURN_CODE 77)
+    endforeach()
+endif()
+
+if(TARGET crevice_tool)
+    tool_test(tool_vulkan)
+    set_tests_properties(tool_vulkan PROPERTIES LABELS vulkan TIMEOUT 600)
 endif()

@@ -139,11 +139,6 @@ CRV__INLINE vf vf_rsqrt(vf a)
     return r * vf_fma(a * r, r * vf_set(-0.5f), vf_set(1.5f));
 }
 
-CRV__INLINE vf vf_rsqrt_fair(vf a)
-{
-    return vf_rsqrt(a);
-}
-
 CRV__INLINE vi vi_trunc(vf a)
 {
     return (vi)_mm256_cvttps_epi32(a);

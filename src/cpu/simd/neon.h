@@ -142,11 +142,6 @@ CRV__INLINE vf vf_rsqrt(vf a)
     return r * vrsqrtsq_f32(a * r, r);
 }
 
-CRV__INLINE vf vf_rsqrt_fair(vf a)
-{
-    return vf_rsqrt(a);
-}
-
 CRV__INLINE vi vi_trunc(vf a)
 {
     return (vi)vcvtq_s32_f32(a);
