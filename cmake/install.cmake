@@ -12,6 +12,15 @@ set(crevice_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/crevice)
 install(TARGETS crevice EXPORT creviceTargets)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/crevice
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+# The shaders as they are, for renderers that take them in; they include shared/*.h.
+if(TARGET crevice_shaders)
+    set(crevice_shader_install ${CMAKE_INSTALL_DATADIR}/crevice/shaders)
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/vulkan/shaders/
+        DESTINATION ${crevice_shader_install}
+        FILES_MATCHING PATTERN "*.glsl" PATTERN "*.comp")
+    install(FILES ${PROJECT_SOURCE_DIR}/src/shared/params.h ${PROJECT_SOURCE_DIR}/src/shared/push.h
+        DESTINATION ${crevice_shader_install}/shared)
+endif()
 install(EXPORT creviceTargets NAMESPACE crevice:: DESTINATION ${crevice_cmake_dir})
 
 # A static library leaves its own dependencies to whoever links it.

@@ -23,6 +23,9 @@ PARTS = ("methods", "threads", "growth", "parts")
 # What pipelines are called on the page: method at medium, filter.
 SAMPLES = {"hbao": "8x8", "hsao": "7x12 + 1", "alchemy": "12", "vao": "12"}
 
+# An exponent that counts as linear: over a factor of 300 in pixels it is a third more.
+LINEAR = 1.05
+
 # The methods that the papers' headlines and the project's aims are about.
 MAIN = ["hbao", "alchemy", "vao", "hsao"]
 
@@ -82,15 +85,17 @@ def measure(options, folder):
               views + ["--only", "methods", "--sizes", f"{size},{hd}", "--methods",
                        ",".join(MAIN), "--filters", filters, "--isa", methods["isas"][-1],
                        "--threads-list", ",".join(threads)] + speed)
-    full = ["--full", "--presets", "medium", "--filters", "none", "--structures", "fast"]
+    # Large pictures take longer than half of the default second; they are to be repeated.
+    full = ["--repeats", "5", "--seconds", "6", "--full", "--presets", "medium",
+            "--filters", "none", "--structures", "fast"]
     run_bench(options.tool, "growth", folder,
               views[:4] + ["--only", "growth", "--sizes", size, "--isa",
                            methods["isas"][-1], "--methods",
                            ",".join(MAIN if not options.brief else MAIN[:1])]
               + (full if not options.brief else []) + speed)
     run_bench(options.tool, "parts", folder,
-              views + ["--only", "passes,memory,embree,whole", "--sizes", size, "--isas",
-                       "all", "--structures", "both", "--threads-list",
+              views + ["--seconds", "2", "--only", "passes,memory,embree,whole", "--sizes",
+                       size, "--isas", "all", "--structures", "both", "--threads-list",
                        ",".join(reversed(threads))] + speed)
 
 
@@ -313,6 +318,11 @@ def other_aims(parts, frames, wide, most):
                  / only(runs, "mpixels_per_s", frame=f, method=m, filter="none", width=wide,
                         threads=1) for f in frames for m in MAIN]
         rows.append(aim_row("two threads over one", pairs, 1.85, ""))
+    for over in ("pixels", "samples"):
+        fits = [f["exponent"] for f in select(parts["growth"]["growth_fits"], over=over)
+                if f["exponent"] is not None]
+        rows.append(aim_row(f"time over {over}, exponent", fits, LINEAR, "",
+                            at_least=False))
     rows.append(aim_row("whole run of `crevice ao`",
                         [r["ms"] for r in parts["parts"]["whole"][:1]], 500, "ms",
                         at_least=False))
@@ -361,8 +371,8 @@ Made by `{own_command}`; the numbers are of these runs:
 Frames lie in memory, converted, when the clock starts; a run is `crv_plan_run()`: estimate, filter where
 there is one, result. One run warms up, then there are {repeats} or more, for a tenth of a second at
 least; the median is given, and behind +- half the distance between the quartiles. A first run that takes
-half a second is the only one. Samples are the look-ups in the buffers for each pixel. Presets are `medium`,
-{threads}. {cycles}
+half of `--seconds` is the only one. Samples are the look-ups in the buffers for each pixel. Presets are
+`medium`, {threads}. {cycles}
 
 ## What was wanted
 
@@ -375,9 +385,9 @@ What the papers needed a graphics card for:
 10^9 floats a second: gathers read every lane from a place of its own, loads read neighbours (unaligned);
 near: from 16 KiB, so from the first cache; disk: at 64 places of a disk of 64 px around pixels that follow
 each other in a picture of 1920 columns, as estimators read. They are measured in the same run as what is
-compared with them, on one thread; shares below take them times the threads. A kernel that gathers cannot
-come above 100 % of gathers, and one that loads not above 100 % of loads: what it stays below is spent on
-arithmetic. Room for multiply-adds is how many of them the machine could do in the time of one sample.
+compared with them, on one thread; shares below take them times the threads. What a kernel that gathers
+stays below 100 % of gathers, and one that loads below 100 % of loads, is spent on arithmetic; only where its
+samples lie nearer than that disk can it come above. Room for multiply-adds is how many of them the machine could do in the time of one sample.
 Streaming is of 128 MiB, which no cache holds.
 
 {ceilings}
@@ -451,10 +461,10 @@ tells how to choose. `docs/performance.py build/gcc/tools/crevice/crevice` makes
 
 def cycles_text(report):
     return {
-        "counter": "Cycles are those of the processor's counter, all threads, user code.",
+        "counter": "Cycles are those of the processor's counter, of all threads, waiting included.",
         "clock": "The processor's cycle counter cannot be read on this machine; cycles are "
                  f"processor time at {report['clock_ghz']:.2f} GHz, the clock of a chain of "
-                 "additions.",
+                 "additions, waiting threads included.",
         "none": "Cycles are not known on this machine.",
     }[report["cycles_from"]]
 

@@ -44,7 +44,7 @@ uchar.h wchar.h wctype.h""".split())
 # The headers from outside that a room may include; rooms that are not listed: any that no
 # other room owns.
 SYSTEM = {
-    "include/crevice": {"stdbool.h", "stddef.h", "stdint.h"},
+    "include/crevice": {"stdbool.h", "stddef.h", "stdint.h", "vulkan/vulkan.h"},
     "src/shared": {"stddef.h", "stdint.h"},  # offsetof pins layouts
     "src/base": STANDARD | {"malloc.h", "omp.h"},  # Windows has its aligned allocator there
     "src/core": STANDARD,
@@ -54,12 +54,16 @@ SYSTEM = {
     "src/cpu": STANDARD,
 }
 
-# Libraries that belong to one room.
+# Libraries that belong to one room. Vulkan's headers are for the backend, for the public
+# header that takes its handles, and for programs that use that.
 OWNED = {
     r"(openexr|OpenEXR|png|zlib)": "io",
     r"(embree\d*/|assimp/)": "scene",
     r"(cjson/|cJSON)": "tools",
 }
+
+# Headers that the build makes, and their rooms.
+GENERATED = {"crevice_shaders.h": "src/vulkan", "vulkan_host_shaders.h": "examples"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)', re.M)
 COMMENT = re.compile(r"/\*.*?\*/", re.S)
@@ -95,11 +99,15 @@ def fault_of(root, path, name, quoted):
                 return f'includes a public header as "{name}"; write "crevice/..."'
             return None
         return f"includes {target}, which {room}/ may not"
+    if quoted and GENERATED.get(name) == room:
+        return None
     if quoted:
         return f'includes "{name}", which is not in the project'
     allowed = SYSTEM.get(room)
     if allowed is not None and name not in allowed:
         return f"includes <{name}>, which {room}/ may not"
+    if name.startswith("vulkan/") and room not in ("src/vulkan", "include/crevice", "examples"):
+        return f"includes <{name}>, which belongs to src/vulkan/"
     for pattern, owner in OWNED.items():
         if re.match(pattern, name) and room != owner and not (
                 owner == "tools" and room == "bench"):

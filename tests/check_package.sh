@@ -40,6 +40,15 @@ if grep -rIlF -e "$source" -e "$work" "$work/prefix"; then
     exit 1
 fi
 
+shaders=$work/prefix/share/crevice/shaders
+if [ -d "$shaders" ]; then
+    echo "-- GLSL, installed"
+    glslang=$(sed -n 's/^CREVICE_GLSLANG:[A-Z]*=//p' "$work/build/CMakeCache.txt")
+    for shader in "$shaders"/*.comp; do
+        "$glslang" --quiet --target-env vulkan1.2 -I"$shaders" -o "$work/installed.spv" "$shader"
+    done
+fi
+
 echo "-- find_package"
 configure -S "$consumer" -B "$work/consumer_cmake" -DCMAKE_PREFIX_PATH="$work/prefix"
 cmake --build "$work/consumer_cmake" -- --quiet

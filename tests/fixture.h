@@ -52,6 +52,7 @@ void fixture_free(fixture *f);
 /* What a run may vary beside the options. Zeroed: all defaults. */
 typedef struct fixture_run {
     int32_t threads;
+    int32_t exact; /* as in crv_context_desc */
     crv_parallel parallel;
     int32_t guard_left, guard_top, guard_right, guard_bottom;
     int32_t origin_x, origin_y;
@@ -59,6 +60,9 @@ typedef struct fixture_run {
     const float *second_layer;
     const crv_depth_format *format; /* what the fixture's depth holds; NULL: planar */
 } fixture_run;
+
+/* Whether frames are computed on a Vulkan device: CREVICE_TEST_DEVICE is "vulkan". */
+int fixture_on_vulkan(void);
 
 /* Computes a frame and returns the result's pixels, which the caller frees. Any error
  * fails the test. */

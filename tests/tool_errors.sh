@@ -60,6 +60,12 @@ render 2 '--bits: "12"' $m --bits 12
 render 2 'its value is missing' $m --radius
 render 2 'one argument too many' $m $m
 render 2 'directions: ' $m --directions 2.5
+for device in gpu vulkan: vulkan:x vulkan:-1 vulkan:1x vulkan:99999 vulkan+1 ''; do
+    render 2 '--device: "' $m --device "$device"
+done
+render 2 '--isa: is for the CPU' $m --device vulkan --isa scalar
+render 2 '--exact: is for the CPU' $m --device vulkan:0 --exact
+render 1 'vulkan: ' $m --device vulkan:999
 
 bad 2 '--size: "0x0"' render $m --size 0x0 -o out.png
 bad 2 '--size: "100000x100000"' render $m --size 100000x100000 -o out.png

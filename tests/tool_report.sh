@@ -41,6 +41,20 @@ assert report["structures_hold"] == all(r["holds"] for r in rows), report
     done
 fi
 
+# The tables of the documentation come from the same numbers, and the page has a place for
+# each of them.
+if command -v python3 >/dev/null; then
+    for section in methods stability; do
+        python3 "$tests/../docs/tables.py" --print page-$section/report.json >tables.txt ||
+            fail "no tables of the section $section"
+        grep -q '^| `hbao` |' tables.txt || fail "hbao in the tables of $section"
+    done
+    for part in $(sed -n 's/^    "\([a-z-]*\)": (.*/\1/p' "$tests/../docs/tables.py"); do
+        grep -q "^<!-- $part -->\$" "$tests/../docs/methods.md" || fail "no part $part"
+        grep -q "^<!-- end of $part -->\$" "$tests/../docs/methods.md" || fail "no end of $part"
+    done
+fi
+
 # Models are views under their names; the main one can be chosen; names do not clash.
 # shellcheck disable=SC2086
 good report -o two builtin:corner builtin:sphere builtin:corner $small --only methods \

@@ -32,6 +32,14 @@ CRV_API const char *crv_isa_name(crv_isa isa);
  * CRV_ISA_SCALAR is always there. Thread-safe. */
 CRV_API uint32_t crv_isa_available(void);
 
+/* Where plans run. */
+typedef enum crv_device {
+    CRV_DEVICE_CPU = 0,
+    /* A GPU, or whatever else has a Vulkan 1.3 driver. Height fields and implicit
+     * surfaces are for the CPU only. */
+    CRV_DEVICE_VULKAN = 1
+} crv_device;
+
 /* Fill it with crv_context_desc_init(), then change what differs. */
 typedef struct crv_context_desc {
     size_t struct_size;      /* set by crv_context_desc_init() */
@@ -45,6 +53,8 @@ typedef struct crv_context_desc {
     /* 1: sampling points exactly where the scalar code has them. 0 (default): kernels may
      * move them a little where that is faster and measured to be no worse. */
     int32_t exact;
+    crv_device device;    /* default CRV_DEVICE_CPU */
+    int32_t device_index; /* Vulkan: as crv_vulkan_device_info() counts; default 0 */
 } crv_context_desc;
 
 /* Sets the defaults. Pass sizeof *desc as struct_size. Thread-safe. */
@@ -56,7 +66,9 @@ CRV_API void crv_context_desc_init(crv_context_desc *desc, size_t struct_size);
  */
 typedef struct crv_context crv_context;
 
-/* desc NULL: the defaults. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. Thread-safe. */
+/* desc NULL: the defaults. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY; UNSUPPORTED where
+ * there is no such device, it lacks what is needed, or the library was built without
+ * Vulkan. Thread-safe. */
 CRV_API crv_status crv_context_create(const crv_context_desc *desc, crv_context **out);
 
 /* Everything made with the context must have been destroyed. NULL does nothing. */
@@ -64,6 +76,21 @@ CRV_API void crv_context_destroy(crv_context *context);
 
 /* The instruction set that the context's plans use; CRV_ISA_SCALAR for NULL. */
 CRV_API crv_isa crv_context_isa(const crv_context *context);
+
+/* A device for crv_context_desc. */
+typedef struct crv_device_info {
+    char name[256];    /* as the driver gives it */
+    char driver[64];   /* version numbers of the driver and of Vulkan */
+    int32_t software;  /* 1: runs on the CPU (lavapipe) */
+    char missing[128]; /* why Crevice cannot use it; "": it can */
+} crv_device_info;
+
+/* Describes the Vulkan device `index`, from 0 on. logger NULL: silent. Errors:
+ * INVALID_ARGUMENT where info is NULL or there are not so many devices (not logged);
+ * UNSUPPORTED with a line where there is no Vulkan, at build or at run time. Thread-safe.
+ */
+CRV_API crv_status crv_vulkan_device_info(int32_t index, crv_device_info *info,
+                                          const crv_logger *logger);
 
 typedef struct crv_plan crv_plan;
 

@@ -23,6 +23,8 @@ const char *crv_status_string(crv_status status)
         return "unsupported";
     case CRV_ERROR_NOT_READY:
         return "not ready";
+    case CRV_ERROR_DEVICE:
+        return "device failure";
     }
     return "unknown status";
 }

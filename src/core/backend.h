@@ -17,6 +17,20 @@ typedef struct crv__setup {
     float *directions, *pattern;
 } crv__setup;
 
+/* Fills what does not depend on the frame. */
+void crv__setup_params(const crv__setup *setup, crv__params *params);
+
+/* Takes and fills directions, noise and the method's own points; 0, or -1 where memory is
+ * out. Release gives back what there is. */
+int crv__setup_patterns(crv__setup *setup);
+void crv__setup_release(crv__setup *setup);
+
+/* The result and, where the guard band has room, the margin that the filter reads. */
+typedef struct crv__rectangle {
+    int32_t x, y, width, height; /* of the buffers */
+} crv__rectangle;
+crv__rectangle crv__setup_rectangle(const crv__setup *setup);
+
 typedef struct crv__work {
     const crv__setup *setup;
     void *state; /* the backend's own, from plan_create() */
@@ -40,8 +54,17 @@ struct crv__backend {
      * nothing. */
     crv_status (*run)(const crv__work *work, int filter_only, const crv__plane planes[2],
                       const crv__plane **result);
+    void (*close)(crv_context *context); /* its device; NULL: nothing to do */
 };
 
 extern const crv__backend crv__cpu_backend;
+
+/* Gives the context a Vulkan device and its backend. UNSUPPORTED with a line where there
+ * is none, or the library was built without (vulkan/absent.c). */
+crv_status crv__vulkan_open(crv_context *context, int32_t index);
+
+/* A context on the CPU that is not yet anybody's: crv_context_create() without the
+ * device. */
+crv_status crv__context_create_bare(const crv_context_desc *desc, crv_context **out);
 
 #endif

@@ -39,7 +39,7 @@ void crv__run_rows(const crv_context *context, int32_t height,
                       &job);
 }
 
-crv_status crv_context_create(const crv_context_desc *desc, crv_context **out)
+crv_status crv__context_create_bare(const crv_context_desc *desc, crv_context **out)
 {
     crv_context_desc defaults;
     crv_context_desc_init(&defaults, sizeof defaults);
@@ -76,10 +76,31 @@ crv_status crv_context_create(const crv_context_desc *desc, crv_context **out)
     return CRV_OK;
 }
 
+crv_status crv_context_create(const crv_context_desc *desc, crv_context **out)
+{
+    crv_context *context = NULL;
+    crv_status status = crv__context_create_bare(desc, out ? &context : NULL);
+    if (status)
+        return status;
+    if (desc && desc->device == CRV_DEVICE_VULKAN)
+        status = crv__vulkan_open(context, desc->device_index);
+    else if (desc && desc->device != CRV_DEVICE_CPU)
+        status =
+            crv__fail(&desc->logger, CRV_ERROR_INVALID_ARGUMENT,
+                      "context: device %d is neither CPU nor Vulkan", (int)desc->device);
+    if (status)
+        crv_context_destroy(context);
+    else
+        *out = context;
+    return status;
+}
+
 void crv_context_destroy(crv_context *context)
 {
     if (!context)
         return;
+    if (context->backend->close)
+        context->backend->close(context);
     crv_allocator allocator = context->allocator;
     crv__release(&allocator, context, 1, sizeof *context);
 }

@@ -17,6 +17,7 @@ struct crv_context {
     uint32_t isa_mask; /* never 0 */
     int32_t exact;     /* 0 or 1 */
     const crv__backend *backend;
+    void *device; /* the backend's; NULL: none */
 };
 
 static inline void crv__run_parallel(const crv_context *context, uint32_t count,

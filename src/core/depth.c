@@ -93,9 +93,9 @@ static void hardware_coefficients(crv__depth_map *map)
     map->b = reversed ? at_near - at_far : at_far - at_near;
 }
 
-static crv_status check_format(const crv_gbuffer *g, const crv_depth_format *format)
+static crv_status check_format(const crv_logger *logger, const crv_camera *camera,
+                               const crv_depth_format *format)
 {
-    const crv_logger *logger = &g->context->logger;
     const crv_depth_encoding encoding = format->encoding;
     if (encoding < CRV_DEPTH_PLANAR || encoding > CRV_DEPTH_DISPARITY)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT, "depth: unknown encoding %d",
@@ -107,7 +107,7 @@ static crv_status check_format(const crv_gbuffer *g, const crv_depth_format *for
                          (double)format->background);
     if (encoding != CRV_DEPTH_HARDWARE && encoding != CRV_DEPTH_REVERSED)
         return CRV_OK;
-    const int orthographic = g->camera.projection == CRV_ORTHOGRAPHIC;
+    const int orthographic = camera->projection == CRV_ORTHOGRAPHIC;
     const int near_valid =
         isfinite(format->z_near) && (orthographic || format->z_near > 0);
     const int far_valid =
@@ -121,12 +121,12 @@ static crv_status check_format(const crv_gbuffer *g, const crv_depth_format *for
         (double)format->z_near, (double)format->z_far);
 }
 
-crv_status crv__depth_map_init(crv__depth_map *map, const crv_gbuffer *g,
-                               const crv_depth_format *format)
+crv_status crv__depth_map_init(crv__depth_map *map, const crv_logger *logger,
+                               const crv_camera *camera, const crv_depth_format *format)
 {
-    *map = (crv__depth_map){.camera = &g->camera,
+    *map = (crv__depth_map){.camera = camera,
                             .format = format ? *format : crv_depth_format_planar()};
-    const crv_status status = check_format(g, &map->format);
+    const crv_status status = check_format(logger, camera, &map->format);
     if (status)
         return status;
     if (map->format.encoding == CRV_DEPTH_HARDWARE
@@ -152,7 +152,7 @@ crv_status crv_gbuffer_set_depth(crv_gbuffer *g, int32_t layer, const crv_image 
     if (status)
         return status;
     depth_job job = {.gbuffer = g, .image = image, .layer = layer};
-    status = crv__depth_map_init(&job.map, g, format);
+    status = crv__depth_map_init(&job.map, logger, &g->camera, format);
     if (status)
         return status;
     crv__run_rows(g->context, g->desc.height, convert_row, &job);

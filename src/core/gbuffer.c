@@ -174,18 +174,24 @@ crv_status crv_gbuffer_set_normals(crv_gbuffer *g, const crv_image *image,
     return CRV_OK;
 }
 
-void crv__gbuffer_params(const crv_gbuffer *g, crv__params *p)
+void crv__camera_params(const crv_gbuffer_desc *desc, const crv_camera *camera,
+                        crv__params *p)
 {
-    p->width = g->desc.width;
-    p->height = g->desc.height;
-    p->layers = g->desc.layers;
-    p->orthographic = g->camera.projection == CRV_ORTHOGRAPHIC;
-    p->fx = g->camera.fx_px;
-    p->fy = g->camera.fy_px;
-    p->cx = g->camera.cx_px;
-    p->cy = g->camera.cy_px;
+    p->width = desc->width;
+    p->height = desc->height;
+    p->layers = desc->layers;
+    p->orthographic = camera->projection == CRV_ORTHOGRAPHIC;
+    p->fx = camera->fx_px;
+    p->fy = camera->fy_px;
+    p->cx = camera->cx_px;
+    p->cy = camera->cy_px;
     p->inv_fx = 1 / p->fx;
     p->inv_fy = 1 / p->fy;
+}
+
+void crv__gbuffer_params(const crv_gbuffer *g, crv__params *p)
+{
+    crv__camera_params(&g->desc, &g->camera, p);
 }
 
 static void finish_row(void *data, uint32_t row)

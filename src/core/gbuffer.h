@@ -25,8 +25,8 @@ struct crv_gbuffer {
 };
 
 /* format NULL: planar. INVALID_ARGUMENT with a line where it makes no sense. */
-crv_status crv__depth_map_init(crv__depth_map *map, const crv_gbuffer *gbuffer,
-                               const crv_depth_format *format);
+crv_status crv__depth_map_init(crv__depth_map *map, const crv_logger *logger,
+                               const crv_camera *camera, const crv_depth_format *format);
 
 /* Planar depth of the value v at pixel (x, y) of the buffers; background INFINITY. */
 float crv__depth_map_apply(const crv__depth_map *map, int32_t x, int32_t y, float v);
@@ -42,6 +42,8 @@ crv_status crv__gbuffer_need_camera(const crv_gbuffer *gbuffer, const char *what
 crv_status crv__gbuffer_prepare(crv_gbuffer *gbuffer);
 
 /* Fills the members of params that describe buffers and camera. */
+void crv__camera_params(const crv_gbuffer_desc *desc, const crv_camera *camera,
+                        crv__params *params);
 void crv__gbuffer_params(const crv_gbuffer *gbuffer, crv__params *params);
 
 /* Makes the relief's normals from the frame's final ones; frees the field's planes

@@ -125,7 +125,8 @@ crv_status crv_multisample_gather(crv_gbuffer *gbuffer, const crv_image *accessi
                       .depth_range = depth_range};
     crv_status status = check(gbuffer, accessibility, sample_depth, depth_range, result);
     if (status == CRV_OK)
-        status = crv__depth_map_init(&job.map, gbuffer, format);
+        status = crv__depth_map_init(&job.map, &gbuffer->context->logger,
+                                     &gbuffer->camera, format);
     if (status)
         return status;
     crv__run_parallel(gbuffer->context, (uint32_t)result->height, gather_row, &job);

@@ -37,11 +37,10 @@ static int32_t wrapped(int64_t value, int32_t size)
     return (int32_t)((value % size + size) % size);
 }
 
-static void fill_params(crv_plan *plan)
+void crv__setup_params(const crv__setup *setup, crv__params *p)
 {
-    const crv_options *o = &plan->setup.options;
-    const crv_gbuffer_desc *d = &plan->setup.desc;
-    crv__params *p = &plan->params;
+    const crv_options *o = &setup->options;
+    const crv_gbuffer_desc *d = &setup->desc;
     p->radius = o->radius;
     p->inv_radius = 1 / o->radius;
     p->falloff = (int32_t)o->falloff;
@@ -77,8 +76,7 @@ static void fill_params(crv_plan *plan)
     p->thickness = o->thickness > 0 ? o->thickness * o->radius : INFINITY;
 }
 
-/* Directions, noise and the method's own points; 0, or -1 where memory is out. */
-static int fill_patterns(crv__setup *s)
+int crv__setup_patterns(crv__setup *s)
 {
     const crv_allocator *allocator = &s->context->allocator;
     const int has_pattern = s->method->pattern_fill != NULL;
@@ -103,26 +101,40 @@ static int fill_patterns(crv__setup *s)
     return done ? 0 : -1;
 }
 
+void crv__setup_release(crv__setup *s)
+{
+    const crv_allocator *allocator = &s->context->allocator;
+    crv__release(allocator, s->noise, noise_count(s), sizeof *s->noise);
+    crv__release(allocator, s->directions, (size_t)s->options.directions,
+                 2 * sizeof(float));
+    crv__release(allocator, s->pattern, pattern_count(s), 4 * sizeof(float));
+}
+
 static int32_t least(int32_t a, int32_t b)
 {
     return a < b ? a : b;
 }
 
-static int create_planes(crv_plan *plan)
+crv__rectangle crv__setup_rectangle(const crv__setup *setup)
 {
-    const crv_allocator *allocator = &plan->context->allocator;
-    const crv_gbuffer_desc *d = &plan->setup.desc;
-    const crv__filter *filter = plan->setup.filter;
-    const int32_t reach = filter ? filter->reach_px : 0;
+    const crv_gbuffer_desc *d = &setup->desc;
+    const int32_t reach = setup->filter ? setup->filter->reach_px : 0;
     const int32_t x0 = d->guard_left - least(d->guard_left, reach);
     const int32_t y0 = d->guard_top - least(d->guard_top, reach);
     const int32_t x1 = d->width - d->guard_right + least(d->guard_right, reach);
     const int32_t y1 = d->height - d->guard_bottom + least(d->guard_bottom, reach);
-    if (crv__plane_create(&plan->planes[0], allocator, x0, y0, x1 - x0, y1 - y0))
-        return -1;
-    if (!filter)
-        return 0;
-    return crv__plane_create(&plan->planes[1], allocator, x0, y0, x1 - x0, y1 - y0);
+    return (crv__rectangle){x0, y0, x1 - x0, y1 - y0};
+}
+
+static int create_planes(crv_plan *plan)
+{
+    const crv_allocator *allocator = &plan->context->allocator;
+    const crv__rectangle r = crv__setup_rectangle(&plan->setup);
+    for (int i = 0; i < (plan->setup.filter ? 2 : 1); i++) {
+        if (crv__plane_create(&plan->planes[i], allocator, r.x, r.y, r.width, r.height))
+            return -1;
+    }
+    return 0;
 }
 
 /* Methods that ask what is inside see nothing of a further surface unless they know or
@@ -164,8 +176,8 @@ crv_status crv_plan_create(crv_context *context, const crv_options *options,
                                    .desc = *desc};
         if (options->filter)
             plan->setup.filter = crv__filter_of(options->filter);
-        fill_params(plan);
-        if (fill_patterns(&plan->setup) == 0 && create_planes(plan) == 0) {
+        crv__setup_params(&plan->setup, &plan->params);
+        if (crv__setup_patterns(&plan->setup) == 0 && create_planes(plan) == 0) {
             status = context->backend->plan_create(&plan->setup, &plan->planes[0],
                                                    &plan->state);
             if (status == CRV_OK)
@@ -190,10 +202,7 @@ void crv_plan_destroy(crv_plan *plan)
         plan->context->backend->plan_destroy(s, plan->state);
     crv__plane_destroy(&plan->planes[0], allocator);
     crv__plane_destroy(&plan->planes[1], allocator);
-    crv__release(allocator, s->noise, noise_count(s), sizeof *s->noise);
-    crv__release(allocator, s->directions, (size_t)s->options.directions,
-                 2 * sizeof(float));
-    crv__release(allocator, s->pattern, pattern_count(s), 4 * sizeof(float));
+    crv__setup_release(s);
     crv__release(allocator, plan, 1, sizeof *plan);
 }
 

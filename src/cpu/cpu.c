@@ -197,8 +197,7 @@ static void run_filter_tile(void *data, uint32_t index)
         out->y0 + (int32_t)(index / (uint32_t)t->columns) * CRV__FILTER_TILE_HEIGHT;
     const int32_t right = out->x0 + out->width, bottom = out->y0 + out->height;
     const int32_t x1 = x0 + CRV__FILTER_TILE_WIDTH, y1 = y0 + CRV__FILTER_TILE_HEIGHT;
-    const crv__rectangle tile = {x0, x1 < right ? x1 : right, y0,
-                                 y1 < bottom ? y1 : bottom};
+    const crv__tile tile = {x0, x1 < right ? x1 : right, y0, y1 < bottom ? y1 : bottom};
     t->filter_kernel(t->work->frame, t->input, out, tile);
 }
 
@@ -263,4 +262,4 @@ static crv_status run(const crv__work *work, int filter_only, const crv__plane p
     return CRV_OK;
 }
 
-const crv__backend crv__cpu_backend = {"cpu", plan_create, plan_destroy, run};
+const crv__backend crv__cpu_backend = {"cpu", plan_create, plan_destroy, run, NULL};

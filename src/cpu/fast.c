@@ -11,10 +11,9 @@
 
 enum {
     PHASES = CRV__FAST_PHASES * CRV__FAST_PHASES,
-    OCTAVES = 14,        /* of projected radii, from half a pixel on */
-    MOST_SAMPLES = 1024, /* what a kernel has room for */
-    MOST_LAYERS = 3,     /* 48 bytes a pixel do not hold more */
-    BYTES_A_PIXEL = 48,  /* beyond input and output */
+    OCTAVES = 14,       /* of projected radii, from half a pixel on */
+    MOST_LAYERS = 3,    /* 48 bytes a pixel do not hold more */
+    BYTES_A_PIXEL = 48, /* beyond input and output */
     TABLES_WHATEVER_THE_SIZE = 2 << 20
 };
 
@@ -65,7 +64,7 @@ static int measure(crv__fast_state *s, const crv__setup *setup)
     const double table =
         (double)s->sample_count * (sizeof(crv__fast_sample) + sizeof(crv__fast_place));
     const double left = (BYTES_A_PIXEL - planes) * pixels - 4.0 * (double)s->depth_count;
-    return fast->walks * fast->steps <= MOST_SAMPLES && d->layers <= MOST_LAYERS
+    return fast->walks * fast->steps <= CRV__FAST_MOST_SAMPLES && d->layers <= MOST_LAYERS
            && s->depth_count < INT32_MAX
            && (table <= left || table <= TABLES_WHATEVER_THE_SIZE);
 }
@@ -75,8 +74,6 @@ static int suits(const crv__setup *setup, const crv__fast_kind *kind)
     const crv_options *o = &setup->options;
     const int32_t size = o->noise_size;
     return kind && !setup->context->exact && (size == 1 || size == 2 || size == 4)
-           && (o->bands == 1
-               || !crv_option_applies(crv_option_find("bands"), o->method, NULL))
            && !(setup->method->volumetric && setup->desc.layers > 1);
 }
 
@@ -236,7 +233,7 @@ static void fill_list(const fill_job *job, uint32_t index)
         &job->frame->noise[phase / CRV__FAST_PHASES % p->noise_size * p->noise_size
                            + px % p->noise_size];
     const float radius = radius_of((int32_t)index / PHASES) / fast->scale[phase];
-    crv__fast_reach reach = {0, 0, 0, 0};
+    crv__fast_reach reach = {.radius = radius};
     for (int32_t k = 0; k < fast->walks; k++) {
         const size_t first =
             ((size_t)index * (size_t)fast->walks + (size_t)k) * (size_t)fast->steps;
@@ -251,6 +248,7 @@ static void fill_list(const fill_job *job, uint32_t index)
             crv__fast_place *place = &fast->places[first + count];
             fill_sample(fast, p, px, step[0], step[1], &fast->samples[first + count],
                         place);
+            place->index = (int16_t)i;
             extend(&reach, place);
             count++;
         }
@@ -284,7 +282,10 @@ const crv__fast *crv__fast_prepare(crv__fast_state *s, const crv__setup *setup,
         s->fx = p->fx;
         s->fy = p->fy;
     }
-    s->fast.background = 1024 * p->radius * p->fy;
+    s->fast.cap = !s->kind->is_walk ? INFINITY
+                  : p->fx > p->fy   ? p->max_radius_px * (p->fy / p->fx)
+                                    : p->max_radius_px;
+    s->fast.background = p->orthographic ? 1e18f : 1024 * p->radius * p->fy;
     crv__run_parallel(setup->context, (uint32_t)(p->height + 15) / 16, deal_rows, &job);
     return &s->fast;
 }

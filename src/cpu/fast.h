@@ -11,9 +11,9 @@ typedef struct crv__fast_state crv__fast_state;
 /*
  * Takes the memory that runs of this plan need; *state NULL, with CRV_OK, where the plan
  * is better or only computed exactly: the context asks for it; the method has no fast
- * kernel in this instruction set; noise_size is not 1, 2 or 4; alchemy with bands; more
- * than CRV__FAST_MOST_SAMPLES samples, or 3 layers; or the tables would take more than is
- * left of 48 bytes a pixel, and more than 2 MiB. OUT_OF_MEMORY without a line.
+ * kernel in this instruction set; noise_size is not 1, 2 or 4; more than
+ * CRV__FAST_MOST_SAMPLES samples, or 3 layers; or the tables would take more than is left
+ * of 48 bytes a pixel, and more than 2 MiB. OUT_OF_MEMORY without a line.
  */
 crv_status crv__fast_create(const crv__setup *setup, crv__fast_state **state);
 void crv__fast_destroy(const crv__setup *setup, crv__fast_state *state);

@@ -1,15 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * params.h: the numbers that an estimator or filter reads, the same for every pixel of a
- * frame. Only 4-byte members, so that C and GLSL (std430) lay it out alike.
+ * frame. C and GLSL both include this file. Only 4-byte members, so that both lay it out
+ * alike (std140 and std430).
  */
 #ifndef CRV_SHARED_PARAMS_H
 #define CRV_SHARED_PARAMS_H
 
+#ifdef VULKAN /* defined by GLSL compilers */
+#define int32_t int
+#else
 #include <stddef.h>
 #include <stdint.h>
+#endif
 
-typedef struct crv__params {
+struct crv__params {
     int32_t width, height; /* of the buffers, guard band included */
     int32_t layers;
     int32_t orthographic; /* 0 or 1 */
@@ -51,19 +56,23 @@ typedef struct crv__params {
     float thickness;     /* scene units; INFINITY: no limit */
     float filter_normal; /* 1 / (1 - cos of the angle); 0: no limit */
     float unused;
-} crv__params;
+};
+
+/* One texel of the noise tile. */
+struct crv__noise_texel {
+    float cos_alpha, sin_alpha; /* rotation, alpha in [0, 2 pi / directions) */
+    float beta;                 /* step jitter in (-1, 1) */
+    float unused;
+};
+
+#ifndef VULKAN
+typedef struct crv__params crv__params;
+typedef struct crv__noise_texel crv__noise_texel;
 
 _Static_assert(sizeof(crv__params) == 44 * 4, "no padding, a multiple of 16 bytes");
 _Static_assert(offsetof(crv__params, falloff) == 12 * 4, "layout shared with GLSL");
 _Static_assert(offsetof(crv__params, use_field) == 39 * 4, "layout shared with GLSL");
-
-/* One texel of the noise tile. */
-typedef struct crv__noise_texel {
-    float cos_alpha, sin_alpha; /* rotation, alpha in [0, 2 pi / directions) */
-    float beta;                 /* step jitter in (-1, 1) */
-    float unused;
-} crv__noise_texel;
-
 _Static_assert(sizeof(crv__noise_texel) == 16, "layout shared with GLSL");
+#endif
 
 #endif

@@ -79,7 +79,8 @@ typedef struct arg_table {
 typedef struct common_settings {
     bool quiet, verbose;
     arg_int threads;
-    arg_int isa; /* index of args_device's choices */
+    const char *device; /* as written; NULL: the CPU */
+    arg_int isa;        /* index of args_device's choices */
     bool exact;
     crv_options options; /* commands with library_options only */
     bool radius_given;
@@ -87,7 +88,7 @@ typedef struct common_settings {
 
 extern const arg_table args_output_lines; /* --quiet, --verbose */
 extern const arg_table args_threads;      /* --threads */
-extern const arg_table args_device;       /* --isa, --exact; see device.h */
+extern const arg_table args_device;       /* --device, --isa, --exact; see device.h */
 extern const char *const args_png_bits[]; /* choices: 8, 16 */
 
 typedef struct command {

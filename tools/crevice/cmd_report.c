@@ -74,9 +74,8 @@ static const arg study_rows[] = {
      .type = ARG_TEXTS,
      .offset = offsetof(report_settings, only),
      .computed = "all",
-     .help =
-         "methods|missing|structure|hsao|hbao|alchemy|vao|closed-forms|stability; may be "
-         "given again"},
+     .help = "methods, missing, structure, hsao, hbao, alchemy, vao, closed-forms or "
+             "stability; may be given again"},
     {.name = "--size",
      .value = "WxH",
      .type = ARG_SIZE,
@@ -165,6 +164,8 @@ static void describe_command(const report_settings *s, text *out)
               s->rays.value);
     if (s->common.threads.value > 0)
         text_addf(out, " --threads %d", s->common.threads.value);
+    if (s->common.device != NULL)
+        text_addf(out, " --device %s", s->common.device);
     if (s->common.isa.value > 0)
         text_addf(out, " --isa %s", crv_isa_name((crv_isa)(s->common.isa.value - 1)));
     if (s->common.exact)

@@ -9,6 +9,13 @@ static const char *const isa_choices[] = {"auto",   "scalar", "sse4", "avx2",
                                           "avx512", "neon",   NULL};
 
 static const arg device_rows[] = {
+    {.name = "--device",
+     .value = "NAME",
+     .type = ARG_TEXT,
+     .computed = "cpu",
+     .offset = offsetof(common_settings, device),
+     .help = "what computes: cpu, or vulkan or vulkan:N, the GPU that `crevice devices` "
+             "gives that number (vulkan: 0)"},
     {.name = "--isa",
      .value = "NAME",
      .type = ARG_CHOICE,
@@ -35,6 +42,39 @@ static void list_sets(uint32_t mask, char *out, size_t size)
                                      crv_isa_name((crv_isa)i));
 }
 
+/* Reads --device; false where it names nothing. */
+static bool parse_device(const char *text, crv_context_desc *desc)
+{
+    int index = 0, end = 0;
+
+    if (text == NULL || strcmp(text, "cpu") == 0)
+        return true;
+    desc->device = CRV_DEVICE_VULKAN;
+    if (strcmp(text, "vulkan") == 0)
+        return true;
+    if (strspn(text + strcspn(text, ":"), ":0123456789") > 4
+        || sscanf(text, "vulkan:%d%n", &index, &end) != 1 || text[end] != '\0'
+        || index < 0)
+        return false;
+    desc->device_index = index;
+    return true;
+}
+
+static int choose_device(const common_settings *common, crv_context_desc *desc, report *r)
+{
+    if (!parse_device(common->device, desc)) {
+        report_error(r, "--device: \"%s\" is no device; give cpu, vulkan or vulkan:N",
+                     common->device);
+        return EXIT_USAGE;
+    }
+    if (desc->device != CRV_DEVICE_CPU && (common->isa.value > 0 || common->exact)) {
+        report_error(r, "%s: is for the CPU; leave it out with --device %s",
+                     common->exact ? "--exact" : "--isa", common->device);
+        return EXIT_USAGE;
+    }
+    return EXIT_DONE;
+}
+
 int device_context(const common_settings *common, const crv_logger *logger, report *r,
                    crv_context **out)
 {
@@ -53,6 +93,8 @@ int device_context_in(const common_settings *common, const crv_logger *logger,
     desc.exact = common->exact;
     if (allocator != NULL)
         desc.allocator = *allocator;
+    if (choose_device(common, &desc, r) != EXIT_DONE)
+        return EXIT_USAGE;
     if (common->isa.value > 0) {
         desc.isa_mask = 1u << (common->isa.value - 1);
         if (!(desc.isa_mask & available)) {

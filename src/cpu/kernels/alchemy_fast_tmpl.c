@@ -31,13 +31,29 @@ static inline __attribute__((always_inline)) view view_of(const crv__fast_pixels
     return w;
 }
 
+/* sample_count() */
+static inline __attribute__((always_inline)) vf count_of(const crv__fast_pixels *at,
+                                                         const view *w)
+{
+    const crv__params *p = at->frame->params;
+    const float focal = p->fx > p->fy ? p->fx : p->fy;
+    const vf bands = vf_set((float)p->bands), samples = vf_set((float)p->samples);
+    const vf radius_px = vf_set(p->radius * focal) * w->scale;
+    const vf up = vf_zero() - vf_floor(radius_px * vf_set(-(float)p->bands / p->band_px));
+    const vf used = vf_min(vf_max(up, vf_set(1)), bands);
+    /* Rounded up; the quotient of integers is at least 1/bands from the next. */
+    return vf_floor((samples * used + bands - vf_set(0.5f)) / bands);
+}
+
 static inline __attribute__((always_inline)) vf sum_of_points(const crv__fast_pixels *at,
                                                               const crv__fast_list *list,
                                                               int32_t orthographic,
-                                                              int32_t layers)
+                                                              int32_t layers,
+                                                              int32_t banded)
 {
     const crv__params *p = at->frame->params;
     const view w = view_of(at, orthographic);
+    const vf count = banded ? count_of(at, &w) : vf_set((float)p->samples);
     vf sum = vf_zero();
     for (int32_t i = 0; i < list->counts[0]; i++) {
         const crv__fast_sample *s = &list->samples[i];
@@ -65,30 +81,39 @@ static inline __attribute__((always_inline)) vf sum_of_points(const crv__fast_pi
                 valid = vm_and(valid, left);
                 left = vm_and(left, vm_not(valid));
             }
+            if (banded)
+                valid = vm_and(valid, vf_lt(vf_set((float)list->places[i].index), count));
             const vf above = vf_where(valid, vf_max(over - w.bias, vf_zero()));
             sum = vf_fma(above, vf_rcp_rough(squared + w.eps), sum);
         }
     }
-    return vf_set(1) - sum * w.scale * vf_set(2 * p->radius / (float)p->samples);
+    /* The points stand for the disk's area, which is the list's, not quite the pixel's.
+     */
+    const vf ratio = vf_set(list->radius * p->inv_radius * p->inv_fy)
+                     * (orthographic ? vf_set(1) : at->depth);
+    const vf share = banded ? vf_set(2 * p->radius) / count
+                            : vf_set(2 * p->radius / (float)p->samples);
+    return vf_set(1) - sum * w.scale * share * (ratio * ratio);
 }
 
 static __attribute__((noinline)) vf common(const crv__fast_pixels *at,
                                            const crv__fast_list *list)
 {
-    return sum_of_points(at, list, 0, 1);
+    return sum_of_points(at, list, 0, 1, 0);
 }
 
 static __attribute__((noinline)) vf general(const crv__fast_pixels *at,
                                             const crv__fast_list *list)
 {
     const crv__params *p = at->frame->params;
-    return sum_of_points(at, list, p->orthographic, p->layers);
+    return sum_of_points(at, list, p->orthographic, p->layers, p->bands > 1);
 }
 
 static inline vf accessibility(const crv__fast_pixels *at, const crv__fast_list *list)
 {
     const crv__params *p = at->frame->params;
-    return p->layers == 1 && !p->orthographic ? common(at, list) : general(at, list);
+    return p->layers == 1 && !p->orthographic && p->bands == 1 ? common(at, list)
+                                                               : general(at, list);
 }
 
 CRV__FAST_KERNEL(alchemy)

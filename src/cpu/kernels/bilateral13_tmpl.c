@@ -170,14 +170,14 @@ CRV__NOINLINE void down_fast(const crv__frame *f, const crv__plane *input,
 }
 
 void CRV__NAME(bilateral13)(const crv__frame *f, const crv__plane *input,
-                            const crv__plane *out, crv__rectangle tile);
+                            const crv__plane *out, crv__tile tile);
 void CRV__NAME(bilateral13)(const crv__frame *f, const crv__plane *input,
-                            const crv__plane *out, crv__rectangle tile)
+                            const crv__plane *out, crv__tile tile)
 {
     enum { PITCH = CRV__FILTER_TILE_WIDTH, ROWS = CRV__FILTER_TILE_HEIGHT + 2 * REACH };
     _Alignas(64) float rows[ROWS * PITCH];
     const int32_t bottom = input->y0 + input->height;
-    crv__rectangle wide = tile;
+    crv__tile wide = tile;
     wide.y0 = tile.y0 - REACH > input->y0 ? tile.y0 - REACH : input->y0;
     wide.y1 = tile.y1 + REACH < bottom ? tile.y1 + REACH : bottom;
     const crv__plane between = {

@@ -117,7 +117,7 @@ typedef void (*crv__block_filter)(const crv__frame *, const crv__plane *,
 /* One pass over a rectangle: `fast` for blocks of `rows` rows whose window reaches so
  * far, `slow` for the pixels that are left. */
 CRV__INLINE void crv__filter_pass(const crv__frame *f, const crv__plane *input,
-                                  const crv__plane *out, crv__rectangle r, int32_t rows,
+                                  const crv__plane *out, crv__tile r, int32_t rows,
                                   int32_t reach_x, int32_t reach_y,
                                   crv__block_filter fast,
                                   void (*slow)(const crv__frame *, const crv__plane *,

@@ -94,9 +94,9 @@ CRV__NOINLINE void fast(const crv__frame *f, const crv__plane *input,
 }
 
 void CRV__NAME(box4)(const crv__frame *f, const crv__plane *input, const crv__plane *out,
-                     crv__rectangle tile);
+                     crv__tile tile);
 void CRV__NAME(box4)(const crv__frame *f, const crv__plane *input, const crv__plane *out,
-                     crv__rectangle tile)
+                     crv__tile tile)
 {
     crv__filter_pass(f, input, out, tile, CRV__BLOCK_ROWS, -FIRST, -FIRST, fast, slowly);
 }

@@ -21,8 +21,9 @@ enum {
     CRV__FAST_PHASES = 4, /* along each axis */
     CRV__FAST_GROUP = 16,
     CRV__FAST_SPAN = CRV__FAST_PHASES * CRV__FAST_GROUP, /* columns of a group */
-    CRV__FAST_PADDING = 16,   /* floats of background at each end of a segment */
-    CRV__FAST_OFF = INT16_MAX /* a sample's shift: it is off every picture */
+    CRV__FAST_PADDING = 16,       /* floats of background at each end of a segment */
+    CRV__FAST_OFF = INT16_MAX,    /* a sample's shift: it is off every picture */
+    CRV__FAST_MOST_SAMPLES = 1024 /* in a list */
 };
 
 /* The direction to a sample, o = (x, y) the step on the image plane at unit depth
@@ -40,14 +41,20 @@ typedef struct crv__fast_place {
     int32_t offset[2]; /* floats from the pixel's place in segment 0 of its row */
     int16_t shift[2];  /* of which so many along the segment */
     int16_t dv;        /* rows down; the opposite one as many up */
-    int16_t unused;
+    int16_t index;     /* of the point in its pattern */
 } crv__fast_place;
 
 /* Over all samples of a list, opposite ones included. */
 typedef struct crv__fast_reach {
     int16_t shift_min, shift_max, rows, unused;
+    float radius; /* projected, vertically, that the samples are spread over; pixels */
 } crv__fast_reach;
 
+/* What stands for no surface is finite, or it would spread as NaN, but farther from every
+ * surface with a bucket than the radius: 1024 times the depth at which the radius is a
+ * pixel; 1e18 where the camera is orthographic. Surfaces from there on count as
+ * background: their radius is a thousandth of a pixel, or of the rounding of their depth.
+ */
 typedef struct crv__fast {
     /* depth by phases of x: layer, row, segment */
     float *depth;
@@ -58,6 +65,7 @@ typedef struct crv__fast {
 
     /* a list of samples for each bucket and phase: `walks` times at most `steps` */
     int32_t buckets, walks, steps;
+    float cap;      /* of the radius, vertically, pixels */
     float largest;  /* projected radius that has a bucket in every phase, pixels */
     int32_t paired; /* 0 or 1: every walk has one opposite to it */
     crv__fast_sample *samples;

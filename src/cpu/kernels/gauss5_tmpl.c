@@ -108,9 +108,9 @@ CRV__NOINLINE void fast(const crv__frame *f, const crv__plane *input,
 }
 
 void CRV__NAME(gauss5)(const crv__frame *f, const crv__plane *input,
-                       const crv__plane *out, crv__rectangle tile);
+                       const crv__plane *out, crv__tile tile);
 void CRV__NAME(gauss5)(const crv__frame *f, const crv__plane *input,
-                       const crv__plane *out, crv__rectangle tile)
+                       const crv__plane *out, crv__tile tile)
 {
     crv__filter_pass(f, input, out, tile, CRV__BLOCK_ROWS, REACH, REACH, fast, slowly);
 }

@@ -6,13 +6,11 @@
 #include "cpu/kernels/fast.h"
 #include "cpu/kernels/lanes.h"
 
-/* The samples of the pixels that take part; most lists are at most so long. */
-enum { CRV__FAST_MOST_SAMPLES = 1024 };
-
 typedef struct crv__fast_list {
     const crv__fast_sample *samples;
     const crv__fast_place *places;
     const uint16_t *counts;
+    float radius;
 } crv__fast_list;
 
 /* Some lanes of a group, a vector of them. */
@@ -61,7 +59,7 @@ CRV__INLINE crv__fast_list crv__fast_list_at(const crv__fast *fast, const crv__f
     const ptrdiff_t first = (ptrdiff_t)index * most;
     const crv__fast_reach reach = fast->reaches[index];
     crv__fast_list list = {fast->samples + first, fast->places + first,
-                           fast->counts + (ptrdiff_t)index * fast->walks};
+                           fast->counts + (ptrdiff_t)index * fast->walks, reach.radius};
     if (y - reach.rows >= 0 && y + reach.rows < height
         && m + reach.shift_min > -CRV__FAST_GROUP && m + reach.shift_max < fast->columns)
         return list;
@@ -115,8 +113,7 @@ CRV__INLINE int crv__fast_buckets(const crv__fast *fast, const crv__params *p,
                                   float *inverses, int32_t *low, int32_t *high)
 {
     const vf radius = vf_set(p->radius * p->fy), background = vf_set(fast->background);
-    const vf cap =
-        vf_set(p->fx > p->fy ? p->max_radius_px * (p->fy / p->fx) : p->max_radius_px);
+    const vf cap = vf_set(fast->cap);
     vm far = vm_first(0);
     for (int32_t i = 0; i < CRV__FAST_GROUP; i += CRV__LANES) {
         const vf d = vf_load(depth + i), inverse = vf_set(1) / d;

@@ -119,4 +119,4 @@ CRV__INLINE int within(const crv__frame *f, const crv__pixels *at)
     return crv__march_within(f, at);
 }
 
-CRV__ESTIMATE_KERNEL(hsao)
+CRV__ESTIMATE_KERNEL(hsao, 1)

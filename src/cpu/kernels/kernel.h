@@ -12,9 +12,9 @@ typedef void (*crv__estimate_kernel)(const crv__frame *frame, int32_t x0, int32_
                                      int32_t y, float *out);
 
 /* The pixels of x0 to x1 - 1 and y0 to y1 - 1. */
-typedef struct crv__rectangle {
+typedef struct crv__tile {
     int32_t x0, x1, y0, y1;
-} crv__rectangle;
+} crv__tile;
 
 /* What a filter's kernel does at once: rows long enough to stream, and so few of them
  * that what a pass leaves for the next (on the stack) stays in the cache. */
@@ -23,7 +23,7 @@ enum { CRV__FILTER_TILE_WIDTH = 128, CRV__FILTER_TILE_HEIGHT = 84 };
 /* All passes of a filter over a rectangle no larger than a tile; as crv__filter.filter
  * for each pixel that is not background. */
 typedef void (*crv__filter_kernel)(const crv__frame *frame, const crv__plane *input,
-                                   const crv__plane *out, crv__rectangle tile);
+                                   const crv__plane *out, crv__tile tile);
 
 typedef struct crv__named_estimate {
     const char *name;

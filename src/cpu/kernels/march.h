@@ -38,33 +38,31 @@ CRV__INLINE crv__v3 crv__lanes_lift(const crv__params *p, crv__shape shape, crv_
     return crv__v3_add_scaled(P, n, (shape.orthographic ? vf_set(1) : -P.z) / focal);
 }
 
-/* Whether every point within `reach` of the active lanes' points lies before the eye and
- * on the buffers, so that none of them need be tested. */
-CRV__INLINE int crv__lanes_within(const crv__params *p, crv__shape shape, crv__v3 P,
-                                  vf reach, vm active)
+/* The least and the greatest slope a / z of points within `reach` of (a, z) in a plane
+ * through the eye: those of the tangents to the circle. reach < z. */
+CRV__INLINE void crv__lanes_slopes(vf a, vf z, vf reach, vf *least, vf *greatest)
 {
-    const vf one = vf_set(1), zero = vf_zero();
-    const vf nearest = -P.z - reach, farthest = -P.z + reach;
-    /* Of the four corners of the square around P the outermost, a pixel more for all
-     * rounding. */
-    vf inverse_near = one, inverse_far = one;
-    if (!shape.orthographic) {
-        inverse_near = one / nearest;
-        inverse_far = one / farthest;
-    }
-    const vf left = P.x - reach, right = P.x + reach;
-    const vf low = P.y - reach, high = P.y + reach;
+    const vf z2 = z * z, reach2 = reach * reach, inverse = vf_set(1) / (z2 - reach2);
+    const vf middle = a * z * inverse;
+    const vf half = reach * vf_sqrt(vf_max(a * a + z2 - reach2, vf_zero())) * inverse;
+    *least = middle - half;
+    *greatest = middle + half;
+}
+
+/* Whether every point within `reach` of the active lanes' points lies before the eye and
+ * on the buffers, so that none of them need be tested. Perspective. */
+CRV__INLINE int crv__lanes_within(const crv__params *p, crv__v3 P, vf reach, vm active)
+{
+    vf left, right, low, high;
+    crv__lanes_slopes(P.x, -P.z, reach, &left, &right);
+    crv__lanes_slopes(P.y, -P.z, reach, &low, &high);
+    /* A pixel less for all rounding. */
     const vf fx = vf_set(p->fx), fy = vf_set(p->fy);
-    const vf x0 = fx * left * vf_select(vf_lt(left, zero), inverse_near, inverse_far);
-    const vf x1 = fx * right * vf_select(vf_lt(zero, right), inverse_near, inverse_far);
-    const vf y0 = fy * low * vf_select(vf_lt(low, zero), inverse_near, inverse_far);
-    const vf y1 = fy * high * vf_select(vf_lt(zero, high), inverse_near, inverse_far);
-    vm inside = vm_and(vf_lt(vf_set(1 - p->cx), x0),
-                       vf_lt(x1, vf_set((float)p->width - p->cx - 1)));
-    inside = vm_and(inside, vm_and(vf_lt(vf_set(p->cy - (float)p->height + 1), y0),
-                                   vf_lt(y1, vf_set(p->cy - 1))));
-    if (!shape.orthographic)
-        inside = vm_and(inside, vf_lt(zero, nearest));
+    vm inside = vm_and(vf_lt(vf_set(1 - p->cx), fx * left),
+                       vf_lt(fx * right, vf_set((float)p->width - p->cx - 1)));
+    inside = vm_and(inside, vf_lt(vf_set(p->cy - (float)p->height + 1), fy * low));
+    inside = vm_and(inside, vf_lt(fy * high, vf_set(p->cy - 1)));
+    inside = vm_and(inside, vf_lt(reach * vf_set(1.001f), -P.z));
     return !vm_any(vm_and(active, vm_not(inside)));
 }
 
@@ -80,8 +78,11 @@ CRV__INLINE crv__texels crv__lanes_texels(const crv__params *p, crv__shape shape
 {
     const vf unit = -Q.z;
     vf x = vf_set(p->fx) * Q.x, y = vf_set(p->fy) * Q.y;
-    if (!shape.orthographic)
-        vf_quotients(x, y, unit, &x, &y);
+    if (!shape.orthographic) {
+        /* The reciprocal would do for both, but not to the bit. */
+        x = x / unit;
+        y = y / unit;
+    }
     crv__texels texels = {vi_floor(vf_set(p->cx) + x), vi_floor(vf_set(p->cy) - y),
                           active};
     if (!shape.within) {
@@ -178,7 +179,7 @@ CRV__INLINE int crv__march_within(const crv__frame *f, const crv__pixels *at)
     const crv__shape shape = {.orthographic = 0};
     const float reach = p->radius * (1 + 1 / (float)p->steps) * 1.0001f;
     const crv__v3 origin = crv__lanes_lift(p, shape, at->P, at->n);
-    return crv__lanes_within(p, shape, origin, vf_set(reach), at->active);
+    return crv__lanes_within(p, origin, vf_set(reach), at->active);
 }
 
 /*

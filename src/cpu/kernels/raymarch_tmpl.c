@@ -34,4 +34,4 @@ CRV__INLINE int within(const crv__frame *f, const crv__pixels *at)
     return crv__march_within(f, at);
 }
 
-CRV__ESTIMATE_KERNEL(raymarch)
+CRV__ESTIMATE_KERNEL(raymarch, 1)

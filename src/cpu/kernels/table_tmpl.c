@@ -7,7 +7,7 @@
     void CRV__NAME(name)(const crv__frame *, int32_t, int32_t, int32_t, float *);
 #define CRV__FILTER(name)                                                                \
     void CRV__NAME(name)(const crv__frame *, const crv__plane *, const crv__plane *,     \
-                         crv__rectangle);
+                         crv__tile);
 #define CRV__FAST(name, ...)                                                             \
     int CRV__NAME(name##_fast)(const crv__frame *, const crv__fast *, int32_t, int32_t,  \
                                int32_t, int32_t, int32_t, float *);

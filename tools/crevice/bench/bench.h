@@ -97,6 +97,9 @@ int bench_context(bench *b, crv_isa isa, int32_t threads, bool exact,
 /* Times crv_plan_run(). result: of the frame's result size, NULL: not wanted. */
 int bench_measure(bench *b, const bench_case *c, float *result, bench_outcome *out);
 
+/* Sees to it that an error line has been written, and returns EXIT_FAILED. */
+int bench_failed(bench *b, const char *doing);
+
 /* "fast" or "exact": the plain code has no other structure. */
 const char *bench_structure(const bench_case *c);
 

@@ -114,7 +114,7 @@ static int run_case(bench *b, const bench_case *c, crv_context *context,
         if (bench_time_runs(&b->clock, run_once, &work, &out->time))
             result = EXIT_DONE;
         else
-            report_ok(b->r, CRV_ERROR_UNSUPPORTED, "estimation");
+            bench_failed(b, "estimation");
         out->run_allocations = memory->calls - before;
     }
     crv_plan_destroy(work.plan);
@@ -135,6 +135,7 @@ int bench_measure(bench *b, const bench_case *c, float *result_pixels, bench_out
     *out = (bench_outcome){0};
     if (pixels == NULL)
         return report_no_memory(b->r);
+    memset(pixels, 0, count * sizeof *pixels); /* pages that are there already */
     result = bench_context(b, c->isa, c->threads, c->exact, &memory, &context);
     if (result == EXIT_DONE)
         result = run_case(b, c, context, &memory, &image, out);
@@ -142,6 +143,13 @@ int bench_measure(bench *b, const bench_case *c, float *result_pixels, bench_out
     if (result_pixels == NULL)
         free(pixels);
     return result;
+}
+
+int bench_failed(bench *b, const char *doing)
+{
+    if (b->r->errors == 0)
+        report_error(b->r, "%s: failed", doing);
+    return EXIT_FAILED;
 }
 
 const char *bench_structure(const bench_case *c)

@@ -198,7 +198,7 @@ static int measure_pass(bench *b, const bench_frame *frame, pass *p, crv_isa isa
 
     bench_progress(b, "%s %s, %s", frame->source->name, p->name, crv_isa_name(isa));
     if (!bench_time_runs(&b->clock, pass_once, p, &t))
-        return report_ok(b->r, CRV_ERROR_UNSUPPORTED, p->name) ? EXIT_DONE : EXIT_FAILED;
+        return bench_failed(b, p->name);
     bench_add_pass(b, frame, p->name, isa, threads, bytes, &t);
     return EXIT_DONE;
 }

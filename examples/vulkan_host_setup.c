@@ -1,0 +1,357 @@
+/* SPDX-License-Identifier: MIT */
+#include "vulkan_host_setup.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST = 32 };
+
+void host_check(VkResult result, const char *what)
+{
+    if (result >= 0)
+        return;
+    fprintf(stderr, "%s: VkResult %d\n", what, (int)result);
+    exit(EXIT_FAILURE);
+}
+
+/* ---- instance and device ---- */
+
+static VKAPI_ATTR VkBool32 VKAPI_CALL
+print_complaint(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
+                VkDebugUtilsMessageTypeFlagsEXT types,
+                const VkDebugUtilsMessengerCallbackDataEXT *data, void *user)
+{
+    host *h = user;
+    (void)severity;
+    (void)types;
+    fprintf(stderr, "validation: %s\n", data->pMessage);
+    h->complaints++;
+    return VK_FALSE;
+}
+
+static int has_validation(void)
+{
+    VkLayerProperties layers[MOST];
+    uint32_t count = MOST;
+    vkEnumerateInstanceLayerProperties(&count, layers);
+    for (uint32_t i = 0; i < count; i++) {
+        if (strcmp(layers[i].layerName, "VK_LAYER_KHRONOS_validation") == 0)
+            return 1;
+    }
+    return 0;
+}
+
+static int open_instance(host *h, int validate)
+{
+    static const char *const LAYER[] = {"VK_LAYER_KHRONOS_validation"};
+    static const char *const EXTENSION[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
+    static const VkValidationFeatureEnableEXT CHECKS[] = {
+        VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+    const VkDebugUtilsMessengerCreateInfoEXT messenger = {
+        .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
+        .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT
+                           | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+        .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT,
+        .pfnUserCallback = print_complaint,
+        .pUserData = h};
+    const VkValidationFeaturesEXT features = {
+        .sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
+        .pNext = &messenger, /* while the instance itself is made and destroyed */
+        .enabledValidationFeatureCount = sizeof CHECKS / sizeof *CHECKS,
+        .pEnabledValidationFeatures = CHECKS};
+    const VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
+                                           .pApplicationName = "crevice host",
+                                           .apiVersion = VK_API_VERSION_1_3};
+    const uint32_t one = validate ? 1 : 0;
+    const VkInstanceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+                                       .pNext = validate ? &features : NULL,
+                                       .pApplicationInfo = &application,
+                                       .enabledLayerCount = one,
+                                       .ppEnabledLayerNames = LAYER,
+                                       .enabledExtensionCount = one,
+                                       .ppEnabledExtensionNames = EXTENSION};
+    if (vkCreateInstance(&info, NULL, &h->instance) != VK_SUCCESS)
+        return -1;
+    if (!validate)
+        return 0;
+    const PFN_vkCreateDebugUtilsMessengerEXT create =
+        (PFN_vkCreateDebugUtilsMessengerEXT)vkGetInstanceProcAddr(
+            h->instance, "vkCreateDebugUtilsMessengerEXT");
+    host_check(create(h->instance, &messenger, NULL, &h->messenger), "messenger");
+    return 0;
+}
+
+/* A family with graphics and compute, of a device with Vulkan 1.3; 0 where there is one.
+ */
+static int choose_family(host *h, VkPhysicalDevice device)
+{
+    VkQueueFamilyProperties families[MOST];
+    uint32_t count = MOST;
+    const VkQueueFlags both = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    vkGetPhysicalDeviceProperties(device, &h->properties);
+    if (h->properties.apiVersion < VK_API_VERSION_1_3)
+        return -1;
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families);
+    for (h->family = 0; h->family < count; h->family++) {
+        if ((families[h->family].queueFlags & both) == both)
+            return 0;
+    }
+    return -1;
+}
+
+static int open_device(host *h)
+{
+    VkPhysicalDevice devices[MOST];
+    uint32_t count = MOST, chosen = 0;
+    if (vkEnumeratePhysicalDevices(h->instance, &count, devices) < 0)
+        return -1;
+    while (chosen < count && choose_family(h, devices[chosen]) != 0)
+        chosen++;
+    if (chosen == count)
+        return -1;
+    h->physical = devices[chosen];
+    const float priority = 1;
+    const VkDeviceQueueCreateInfo queue = {.sType =
+                                               VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+                                           .queueFamilyIndex = h->family,
+                                           .queueCount = 1,
+                                           .pQueuePriorities = &priority};
+    /* Crevice needs synchronization2 and shaderStorageImageWriteWithoutFormat. */
+    VkPhysicalDeviceVulkan13Features v13 = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
+        .synchronization2 = VK_TRUE,
+        .dynamicRendering = VK_TRUE};
+    const VkPhysicalDeviceFeatures2 features = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
+        .pNext = &v13,
+        .features = {.shaderStorageImageWriteWithoutFormat = VK_TRUE}};
+    const VkDeviceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                     .pNext = &features,
+                                     .queueCreateInfoCount = 1,
+                                     .pQueueCreateInfos = &queue};
+    host_check(vkCreateDevice(h->physical, &info, NULL, &h->device), "device");
+    vkGetDeviceQueue(h->device, h->family, 0, &h->queue);
+    return 0;
+}
+
+int host_open(host *h, int validate)
+{
+    *h = (host){0};
+    if ((validate && !has_validation()) || open_instance(h, validate) != 0)
+        return -1;
+    if (open_device(h) == 0)
+        return 0;
+    host_close(h);
+    return -1;
+}
+
+void host_close(host *h)
+{
+    vkDestroyDevice(h->device, NULL);
+    if (h->messenger) {
+        const PFN_vkDestroyDebugUtilsMessengerEXT destroy =
+            (PFN_vkDestroyDebugUtilsMessengerEXT)vkGetInstanceProcAddr(
+                h->instance, "vkDestroyDebugUtilsMessengerEXT");
+        destroy(h->instance, h->messenger, NULL);
+    }
+    vkDestroyInstance(h->instance, NULL);
+}
+
+/* ---- memory ---- */
+
+static VkDeviceMemory memory_make(const host *h, VkMemoryRequirements needs,
+                                  VkMemoryPropertyFlags flags)
+{
+    VkPhysicalDeviceMemoryProperties heaps;
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    vkGetPhysicalDeviceMemoryProperties(h->physical, &heaps);
+    uint32_t type = 0;
+    while (type < heaps.memoryTypeCount
+           && (!(needs.memoryTypeBits >> type & 1)
+               || (heaps.memoryTypes[type].propertyFlags & flags) != flags))
+        type++;
+    const VkMemoryAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                       .allocationSize = needs.size,
+                                       .memoryTypeIndex = type};
+    host_check(vkAllocateMemory(h->device, &info, NULL, &memory), "memory");
+    return memory;
+}
+
+static int is_depth(VkFormat format)
+{
+    return format >= VK_FORMAT_D16_UNORM && format <= VK_FORMAT_D32_SFLOAT_S8_UINT;
+}
+
+host_image host_image_make(const host *h, VkFormat format, int width, int height,
+                           VkImageUsageFlags usage)
+{
+    host_image i = {0};
+    const VkImageCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
+                                    .imageType = VK_IMAGE_TYPE_2D,
+                                    .format = format,
+                                    .extent = {(uint32_t)width, (uint32_t)height, 1},
+                                    .mipLevels = 1,
+                                    .arrayLayers = 1,
+                                    .samples = VK_SAMPLE_COUNT_1_BIT,
+                                    .usage = usage};
+    host_check(vkCreateImage(h->device, &info, NULL, &i.image), "image");
+    VkMemoryRequirements needs;
+    vkGetImageMemoryRequirements(h->device, i.image, &needs);
+    i.memory = memory_make(h, needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+    host_check(vkBindImageMemory(h->device, i.image, i.memory, 0), "memory of an image");
+    const VkImageViewCreateInfo view = {
+        .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+        .image = i.image,
+        .viewType = VK_IMAGE_VIEW_TYPE_2D,
+        .format = format,
+        .subresourceRange = {is_depth(format) ? VK_IMAGE_ASPECT_DEPTH_BIT
+                                              : VK_IMAGE_ASPECT_COLOR_BIT,
+                             0, 1, 0, 1}};
+    host_check(vkCreateImageView(h->device, &view, NULL, &i.view), "view");
+    return i;
+}
+
+void host_image_free(const host *h, host_image *i)
+{
+    vkDestroyImageView(h->device, i->view, NULL);
+    vkDestroyImage(h->device, i->image, NULL);
+    vkFreeMemory(h->device, i->memory, NULL);
+    *i = (host_image){0};
+}
+
+host_buffer host_buffer_make(const host *h, size_t size, VkBufferUsageFlags usage)
+{
+    host_buffer b = {0};
+    const VkBufferCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = size, .usage = usage};
+    host_check(vkCreateBuffer(h->device, &info, NULL, &b.buffer), "buffer");
+    VkMemoryRequirements needs;
+    vkGetBufferMemoryRequirements(h->device, b.buffer, &needs);
+    b.memory = memory_make(h, needs,
+                           VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT
+                               | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+    host_check(vkBindBufferMemory(h->device, b.buffer, b.memory, 0),
+               "memory of a buffer");
+    host_check(vkMapMemory(h->device, b.memory, 0, VK_WHOLE_SIZE, 0, &b.bytes), "map");
+    return b;
+}
+
+void host_buffer_free(const host *h, host_buffer *b)
+{
+    vkDestroyBuffer(h->device, b->buffer, NULL);
+    vkFreeMemory(h->device, b->memory, NULL);
+    *b = (host_buffer){0};
+}
+
+/* ---- drawing ---- */
+
+static VkPipelineShaderStageCreateInfo stage(const host *h, host_shader shader,
+                                             VkShaderStageFlagBits which)
+{
+    VkPipelineShaderStageCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+        .stage = which,
+        .pName = "main"};
+    const VkShaderModuleCreateInfo module = {
+        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+        .codeSize = shader.size_bytes,
+        .pCode = shader.words};
+    host_check(vkCreateShaderModule(h->device, &module, NULL, &info.module), "shader");
+    return info;
+}
+
+VkPipeline host_pipeline_make(const host *h, VkPipelineLayout layout, host_shader vertex,
+                              host_shader fragment, uint32_t stride,
+                              VkFormat colour_format, VkFormat depth_format)
+{
+    const VkVertexInputBindingDescription binding = {0, stride,
+                                                     VK_VERTEX_INPUT_RATE_VERTEX};
+    const VkVertexInputAttributeDescription attributes[] = {
+        {0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
+        {1, 0, VK_FORMAT_R32G32B32_SFLOAT, 3 * sizeof(float)}};
+    const VkPipelineVertexInputStateCreateInfo input = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
+        .vertexBindingDescriptionCount = stride ? 1 : 0,
+        .pVertexBindingDescriptions = &binding,
+        .vertexAttributeDescriptionCount = stride ? 2 : 0,
+        .pVertexAttributeDescriptions = attributes};
+    const VkPipelineInputAssemblyStateCreateInfo assembly = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
+        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
+    const VkPipelineViewportStateCreateInfo viewport = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
+        .viewportCount = 1,
+        .scissorCount = 1};
+    const VkPipelineRasterizationStateCreateInfo rasterisation = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
+        .lineWidth = 1};
+    const VkPipelineMultisampleStateCreateInfo samples = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
+        .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
+    const VkPipelineDepthStencilStateCreateInfo depth = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
+        .depthTestEnable = depth_format != VK_FORMAT_UNDEFINED,
+        .depthWriteEnable = depth_format != VK_FORMAT_UNDEFINED,
+        .depthCompareOp = VK_COMPARE_OP_GREATER};
+    const VkPipelineColorBlendAttachmentState attachment = {.colorWriteMask = 0xf};
+    const VkPipelineColorBlendStateCreateInfo blend = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
+        .attachmentCount = 1,
+        .pAttachments = &attachment};
+    const VkDynamicState states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    const VkPipelineDynamicStateCreateInfo dynamic = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
+        .dynamicStateCount = 2,
+        .pDynamicStates = states};
+    const VkPipelineRenderingCreateInfo rendering = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
+        .colorAttachmentCount = 1,
+        .pColorAttachmentFormats = &colour_format,
+        .depthAttachmentFormat = depth_format};
+    const VkPipelineShaderStageCreateInfo stages[] = {
+        stage(h, vertex, VK_SHADER_STAGE_VERTEX_BIT),
+        stage(h, fragment, VK_SHADER_STAGE_FRAGMENT_BIT)};
+    const VkGraphicsPipelineCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
+        .pNext = &rendering,
+        .stageCount = 2,
+        .pStages = stages,
+        .pVertexInputState = &input,
+        .pInputAssemblyState = &assembly,
+        .pViewportState = &viewport,
+        .pRasterizationState = &rasterisation,
+        .pMultisampleState = &samples,
+        .pDepthStencilState = &depth,
+        .pColorBlendState = &blend,
+        .pDynamicState = &dynamic,
+        .layout = layout};
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    host_check(
+        vkCreateGraphicsPipelines(h->device, VK_NULL_HANDLE, 1, &info, NULL, &pipeline),
+        "pipeline");
+    vkDestroyShaderModule(h->device, stages[0].module, NULL);
+    vkDestroyShaderModule(h->device, stages[1].module, NULL);
+    return pipeline;
+}
+
+void host_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect,
+                  host_use before, host_use after)
+{
+    const VkImageMemoryBarrier2 barrier = {.sType =
+                                               VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+                                           .srcStageMask = before.stages,
+                                           .srcAccessMask = before.access,
+                                           .dstStageMask = after.stages,
+                                           .dstAccessMask = after.access,
+                                           .oldLayout = before.layout,
+                                           .newLayout = after.layout,
+                                           .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                           .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                           .image = image,
+                                           .subresourceRange = {aspect, 0, 1, 0, 1}};
+    const VkDependencyInfo info = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                   .imageMemoryBarrierCount = 1,
+                                   .pImageMemoryBarriers = &barrier};
+    vkCmdPipelineBarrier2(commands, &info);
+}

@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * vulkan_host_setup.h: what every Vulkan program begins with: a device, images, buffers,
+ * pipelines. Nothing here knows of Crevice. What goes wrong ends the program with a line.
+ */
+#ifndef EXAMPLES_VULKAN_HOST_SETUP_H
+#define EXAMPLES_VULKAN_HOST_SETUP_H
+
+#include <stddef.h>
+#include <vulkan/vulkan.h>
+
+typedef struct host {
+    VkInstance instance;
+    VkDebugUtilsMessengerEXT messenger;
+    VkPhysicalDevice physical;
+    VkPhysicalDeviceProperties properties;
+    VkDevice device;
+    uint32_t family; /* graphics and compute */
+    VkQueue queue;
+    int complaints; /* lines of the validation layer */
+} host;
+
+/* validate: with the validation layer, its lines to stderr. 0; or -1 where there is no
+ * Vulkan 1.3 device, or no validation layer. host must not move afterwards. */
+int host_open(host *h, int validate);
+void host_close(host *h);
+
+/* Ends the program where the result is an error. */
+void host_check(VkResult result, const char *what);
+
+typedef struct host_image {
+    VkImage image;
+    VkImageView view;
+    VkDeviceMemory memory;
+} host_image;
+
+host_image host_image_make(const host *h, VkFormat format, int width, int height,
+                           VkImageUsageFlags usage);
+void host_image_free(const host *h, host_image *image);
+
+typedef struct host_buffer {
+    VkBuffer buffer;
+    VkDeviceMemory memory;
+    void *bytes;
+} host_buffer;
+
+/* Mapped and coherent. */
+host_buffer host_buffer_make(const host *h, size_t size, VkBufferUsageFlags usage);
+void host_buffer_free(const host *h, host_buffer *buffer);
+
+typedef struct host_shader {
+    const uint32_t *words;
+    size_t size_bytes;
+} host_shader;
+
+/* Triangles by dynamic rendering. stride 0: no vertices are read; else two vec3 each.
+ * depth_format UNDEFINED: no depth; else the nearest, reversed, stays. */
+VkPipeline host_pipeline_make(const host *h, VkPipelineLayout layout, host_shader vertex,
+                              host_shader fragment, uint32_t stride,
+                              VkFormat colour_format, VkFormat depth_format);
+
+/* A barrier for one image: from what was done to it, to what will be. */
+typedef struct host_use {
+    VkPipelineStageFlags2 stages;
+    VkAccessFlags2 access;
+    VkImageLayout layout;
+} host_use;
+void host_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect,
+                  host_use before, host_use after);
+
+#endif

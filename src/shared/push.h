@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * push.h: the push constants of every shader, what one dispatch differs in from the next.
+ * C and GLSL both include this file. Rectangles are in pixels of the buffers.
+ */
+#ifndef CRV_SHARED_PUSH_H
+#define CRV_SHARED_PUSH_H
+
+#ifdef VULKAN /* defined by GLSL compilers */
+#define int32_t int
+#else
+#include <stddef.h>
+#include <stdint.h>
+#endif
+
+struct crv__push {
+    /* What the input image of filters and resolve covers, from its first texel. */
+    int32_t in_x, in_y, in_width, in_height;
+    /* What is written; the output image's first texel is the corner. */
+    int32_t out_x, out_y, out_width, out_height;
+
+    int32_t pass;            /* of a filter */
+    int32_t layer;           /* of a depth conversion */
+    int32_t depth_encoding;  /* crv_depth_encoding */
+    int32_t normal_encoding; /* crv__normal_encoding */
+
+    /* Hardware depth: 1 / (a + b u), orthographic a + b u; depth.glsl says what u is. */
+    float depth_a, depth_b;
+    float depth_background; /* planar and radial: this and all beyond; may be INFINITY */
+    float unused;
+
+    float to_view[9]; /* of normals: 3x3, row by row */
+};
+
+#ifndef VULKAN
+typedef struct crv__push crv__push;
+
+/* How an image of normals is to be read. */
+typedef enum crv__normal_encoding {
+    CRV__NORMAL_NONE = 0,       /* no image: reconstructed from depth */
+    CRV__NORMAL_XYZ = 1,        /* as stored, floats or signed normalised */
+    CRV__NORMAL_XYZ_HALVED = 2, /* unsigned: n * 0.5 + 0.5 */
+    CRV__NORMAL_OCT = 3,        /* octahedral, two signed numbers */
+    CRV__NORMAL_OCT_HALVED = 4  /* octahedral, * 0.5 + 0.5 */
+} crv__normal_encoding;
+
+_Static_assert(sizeof(crv__push) == 100, "at most 128 bytes; layout shared with GLSL");
+_Static_assert(offsetof(crv__push, to_view) == 64, "layout shared with GLSL");
+#endif
+
+#endif

@@ -1,0 +1,281 @@
+/* SPDX-License-Identifier: MIT */
+/* Plans on a device: what the CPU has converted is copied there, computed and copied
+ * back. */
+#include "vulkan/slot.h"
+
+#include <string.h>
+
+typedef struct plan_state {
+    crv__program program;
+    crv__slot slot;
+    crv__buffer staging; /* depth layers, normals; accessibility in and out */
+    VkCommandPool pool;
+    VkCommandBuffer commands;
+    VkFence fence;
+} plan_state;
+
+/* Where things lie in the staging buffer. */
+typedef struct staging_layout {
+    size_t normals, accessibility, size;
+} staging_layout;
+
+static staging_layout layout_of(const crv__setup *setup)
+{
+    const crv__rectangle r = crv__setup_rectangle(setup);
+    const size_t pixels = (size_t)setup->desc.width * (size_t)setup->desc.height;
+    staging_layout layout;
+    layout.normals = pixels * (size_t)setup->desc.layers * sizeof(float);
+    layout.normals = (layout.normals + 15) / 16 * 16; /* of the size of a texel */
+    layout.accessibility = layout.normals + pixels * 4 * sizeof(float);
+    layout.size =
+        layout.accessibility + (size_t)r.width * (size_t)r.height * sizeof(float);
+    return layout;
+}
+
+static crv_status create_commands(plan_state *state, const crv__device *d)
+{
+    const VkCommandPoolCreateInfo pool = {.sType =
+                                              VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                          .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+                                          .queueFamilyIndex = d->family};
+    VkResult result =
+        d->vk.CreateCommandPool(d->device, &pool, d->callbacks, &state->pool);
+    if (result)
+        return crv__device_fail(d, result, "command pool");
+    const VkCommandBufferAllocateInfo buffer = {
+        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+        .commandPool = state->pool,
+        .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+        .commandBufferCount = 1};
+    result = d->vk.AllocateCommandBuffers(d->device, &buffer, &state->commands);
+    if (result)
+        return crv__device_fail(d, result, "command buffer");
+    const VkFenceCreateInfo fence = {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    result = d->vk.CreateFence(d->device, &fence, d->callbacks, &state->fence);
+    return result ? crv__device_fail(d, result, "fence") : CRV_OK;
+}
+
+static void plan_destroy(const crv__setup *setup, void *data)
+{
+    plan_state *state = data;
+    const crv__device *d = crv__device_of(setup->context);
+    d->vk.DestroyFence(d->device, state->fence, d->callbacks);
+    d->vk.DestroyCommandPool(d->device, state->pool, d->callbacks);
+    crv__buffer_destroy(&state->staging, d);
+    crv__slot_destroy(&state->slot);
+    crv__program_destroy(&state->program);
+    crv__release(&setup->context->allocator, state, 1, sizeof *state);
+}
+
+static crv_status plan_create(const crv__setup *setup, const crv__plane *rectangle,
+                              void **out)
+{
+    static const crv__program_desc PROGRAM = {.edge = 1};
+    static const crv__slot_desc SLOT = {VK_FORMAT_R32G32B32A32_SFLOAT,
+                                        VK_FORMAT_R32_SFLOAT, 0};
+    const crv__device *d = crv__device_of(setup->context);
+    (void)rectangle; /* the setup's own */
+    if (!d->queue)
+        return crv__fail(&d->logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "vulkan: plans need a queue; set host.queue");
+    crv_status status = crv__setup_check(d, setup);
+    if (status)
+        return status;
+    plan_state *state = crv__allocate(&setup->context->allocator, 1, sizeof *state);
+    if (!state)
+        return crv__fail(&d->logger, CRV_ERROR_OUT_OF_MEMORY, "plan: out of memory");
+    status = crv__program_create(&state->program, d, setup, &PROGRAM);
+    if (status == CRV_OK)
+        status = crv__slot_create(&state->slot, &state->program, setup, &SLOT);
+    if (status == CRV_OK)
+        status = crv__buffer_create(&state->staging, d, layout_of(setup).size,
+                                    VK_BUFFER_USAGE_TRANSFER_SRC_BIT
+                                        | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    if (status == CRV_OK)
+        status = create_commands(state, d);
+    if (status)
+        plan_destroy(setup, state);
+    else
+        *out = state;
+    return status;
+}
+
+/* ---- a run ---- */
+
+static void pack_plane(const crv__plane *plane, float *out)
+{
+    for (int32_t y = 0; y < plane->height; y++)
+        memcpy(out + (size_t)y * (size_t)plane->width,
+               crv__plane_at(plane, plane->x0, plane->y0 + y),
+               (size_t)plane->width * sizeof *out);
+}
+
+static void unpack_plane(const float *in, const crv__plane *plane)
+{
+    for (int32_t y = 0; y < plane->height; y++)
+        memcpy(crv__plane_at(plane, plane->x0, plane->y0 + y),
+               in + (size_t)y * (size_t)plane->width, (size_t)plane->width * sizeof *in);
+}
+
+static void pack_normals(const crv__frame *f, float *out)
+{
+    for (int32_t y = 0; y < f->params->height; y++) {
+        for (int32_t x = 0; x < f->params->width; x++, out += 4) {
+            const crv__vec3 n = crv__normal_at(f, x, y);
+            out[0] = n.x;
+            out[1] = n.y;
+            out[2] = n.z;
+            out[3] = 0;
+        }
+    }
+}
+
+static void pack(const crv__work *work, plan_state *state, const crv__plane *estimate,
+                 int filter_only)
+{
+    const crv__frame *f = work->frame;
+    const staging_layout layout = layout_of(work->setup);
+    char *bytes = state->staging.block.mapped;
+    const size_t pixels = (size_t)f->params->width * (size_t)f->params->height;
+    for (int32_t i = 0; i < f->params->layers; i++)
+        pack_plane(&f->depth[i], (float *)(void *)bytes + (size_t)i * pixels);
+    pack_normals(f, (float *)(void *)(bytes + layout.normals));
+    if (filter_only)
+        pack_plane(estimate, (float *)(void *)(bytes + layout.accessibility));
+    memcpy(state->slot.params.block.mapped, f->params, sizeof *f->params);
+}
+
+static VkBufferImageCopy whole(size_t offset, int32_t width, int32_t height,
+                               int32_t layers)
+{
+    return (VkBufferImageCopy){
+        .bufferOffset = offset,
+        .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, (uint32_t)layers},
+        .imageExtent = {(uint32_t)width, (uint32_t)height, 1}};
+}
+
+static void record_upload(const crv__work *work, plan_state *state, int filter_only)
+{
+    const crv__device *d = state->program.device;
+    const crv_gbuffer_desc *g = &work->setup->desc;
+    const staging_layout layout = layout_of(work->setup);
+    const crv__rectangle *r = &state->slot.rectangle;
+    const VkBufferImageCopy depth = whole(0, g->width, g->height, g->layers),
+                            normals = whole(layout.normals, g->width, g->height, 1),
+                            estimate =
+                                whole(layout.accessibility, r->width, r->height, 1);
+    const VkBuffer from = state->staging.buffer;
+    d->vk.CmdCopyBufferToImage(state->commands, from, state->slot.depth.image,
+                               VK_IMAGE_LAYOUT_GENERAL, 1, &depth);
+    d->vk.CmdCopyBufferToImage(state->commands, from, state->slot.normals.image,
+                               VK_IMAGE_LAYOUT_GENERAL, 1, &normals);
+    if (filter_only)
+        d->vk.CmdCopyBufferToImage(state->commands, from,
+                                   state->slot.accessibility[0].image,
+                                   VK_IMAGE_LAYOUT_GENERAL, 1, &estimate);
+    crv__record_barrier(d, state->commands, CRV__COPIED_TO, CRV__SAMPLED);
+}
+
+/* Runs the passes; the index of the image that holds the outcome. */
+static int32_t record_passes(plan_state *state, int filter_only)
+{
+    const crv__device *d = state->program.device;
+    const crv__rectangle *r = &state->slot.rectangle;
+    crv__push push = {.in_x = r->x,
+                      .in_y = r->y,
+                      .in_width = r->width,
+                      .in_height = r->height,
+                      .out_x = r->x,
+                      .out_y = r->y,
+                      .out_width = r->width,
+                      .out_height = r->height};
+    if (!filter_only)
+        crv__slot_record_step(&state->slot, state->commands, &state->program.estimate,
+                              state->slot.estimate_set, &push);
+    for (push.pass = 0; push.pass < state->program.passes; push.pass++) {
+        crv__record_barrier(d, state->commands, CRV__WRITTEN,
+                            (crv__access){CRV__SAMPLED.stages,
+                                          CRV__SAMPLED.access | CRV__WRITTEN.access});
+        crv__slot_record_step(&state->slot, state->commands,
+                              &state->program.filter[push.pass],
+                              state->slot.filter_set[push.pass], &push);
+    }
+    return state->program.passes % 2;
+}
+
+static void record(const crv__work *work, plan_state *state, int filter_only)
+{
+    const crv__device *d = state->program.device;
+    const crv__rectangle *r = &state->slot.rectangle;
+    crv__slot_record_begin(&state->slot, state->commands);
+    record_upload(work, state, filter_only);
+    const int32_t outcome = record_passes(state, filter_only);
+    const crv__access done = {CRV__WRITTEN.stages | CRV__COPIED_TO.stages,
+                              CRV__WRITTEN.access | CRV__COPIED_TO.access};
+    const crv__access copies = {CRV__COPIED_FROM.stages,
+                                CRV__COPIED_FROM.access | CRV__COPIED_TO.access};
+    crv__record_barrier(d, state->commands, done, copies);
+    const VkBufferImageCopy copy =
+        whole(layout_of(work->setup).accessibility, r->width, r->height, 1);
+    d->vk.CmdCopyImageToBuffer(state->commands, state->slot.accessibility[outcome].image,
+                               VK_IMAGE_LAYOUT_GENERAL, state->staging.buffer, 1, &copy);
+    crv__record_barrier(d, state->commands, CRV__COPIED_TO, CRV__HOST_READS);
+}
+
+static crv_status submit_and_wait(plan_state *state)
+{
+    const crv__device *d = state->program.device;
+    const VkCommandBufferSubmitInfo commands = {
+        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
+        .commandBuffer = state->commands};
+    const VkSubmitInfo2 submit = {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
+                                  .commandBufferInfoCount = 1,
+                                  .pCommandBufferInfos = &commands};
+    VkResult result = d->vk.QueueSubmit2(d->queue, 1, &submit, state->fence);
+    if (result)
+        return crv__device_fail(d, result, "submit");
+    result = d->vk.WaitForFences(d->device, 1, &state->fence, VK_TRUE, UINT64_MAX);
+    if (result == VK_SUCCESS)
+        result = d->vk.ResetFences(d->device, 1, &state->fence);
+    return result ? crv__device_fail(d, result, "run") : CRV_OK;
+}
+
+static crv_status run(const crv__work *work, int filter_only, const crv__plane planes[2],
+                      const crv__plane **out)
+{
+    plan_state *state = work->state;
+    const crv__device *d = state->program.device;
+    if (work->frame->params->use_field)
+        return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
+                         "vulkan: height fields and implicit surfaces are for the CPU "
+                         "only; use a CPU context, or characteristic=depth");
+    const VkCommandBufferBeginInfo info = {
+        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+        .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+    pack(work, state, &planes[0], filter_only);
+    VkResult result = d->vk.ResetCommandPool(d->device, state->pool, 0);
+    if (result == VK_SUCCESS)
+        result = d->vk.BeginCommandBuffer(state->commands, &info);
+    if (result)
+        return crv__device_fail(d, result, "commands");
+    record(work, state, filter_only);
+    result = d->vk.EndCommandBuffer(state->commands);
+    const crv_status status =
+        result ? crv__device_fail(d, result, "commands") : submit_and_wait(state);
+    if (status)
+        return status;
+    const char *bytes = state->staging.block.mapped;
+    *out = &planes[state->program.passes % 2];
+    unpack_plane(
+        (const float *)(const void *)(bytes + layout_of(work->setup).accessibility),
+        *out);
+    return CRV_OK;
+}
+
+static void close_device(crv_context *context)
+{
+    crv__device_destroy(crv__device_of(context));
+}
+
+const crv__backend crv__vulkan_backend = {"vulkan", plan_create, plan_destroy, run,
+                                          close_device};

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: MIT */
+/* A Vulkan device: the host's, or one of Crevice's own. */
+#ifndef CRV_VULKAN_DEVICE_H
+#define CRV_VULKAN_DEVICE_H
+
+#include "core/backend.h"
+#include "vulkan/loader.h"
+
+#include "crevice/vulkan.h"
+
+typedef struct crv__pipelines crv__pipelines;
+
+typedef struct crv__device {
+    crv__vk_table vk;
+    void *loader; /* NULL: the host's */
+    int owned;    /* whether instance and device are destroyed with this */
+    VkInstance instance;
+    VkPhysicalDevice physical;
+    VkDevice device;
+    VkQueue queue; /* VK_NULL_HANDLE: the host gave none */
+    uint32_t family, timestamp_bits;
+    int is_lavapipe;
+    VkPhysicalDeviceProperties properties;
+    VkPhysicalDeviceMemoryProperties heaps;
+    const VkAllocationCallbacks *callbacks;
+    crv_vulkan_memory memory;
+    crv_logger logger;
+    crv_allocator allocator;
+    crv__pipelines *pipelines;
+} crv__device;
+
+extern const crv__backend crv__vulkan_backend;
+
+/* The context's device; NULL where it has none. */
+crv__device *crv__device_of(const crv_context *context);
+
+/* Logs `what` with the name of the result; the status that it is. */
+crv_status crv__device_fail(const crv__device *d, VkResult result, const char *what);
+
+/* NULL does nothing. */
+void crv__device_destroy(crv__device *d);
+
+#endif

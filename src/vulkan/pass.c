@@ -1,0 +1,467 @@
+/* SPDX-License-Identifier: MIT */
+/* Passes in the host's command buffer. */
+#include "vulkan/slot.h"
+
+#include "core/camera.h"
+#include "core/gbuffer.h"
+
+#include <string.h>
+
+struct crv_vulkan_pass {
+    crv_context *context;
+    const crv__device *device;
+    crv__setup setup;
+    crv_vulkan_pass_desc desc;
+    crv__program program;
+    crv__slot slots[CRV_VULKAN_MAX_FRAMES];
+    int recorded[CRV_VULKAN_MAX_FRAMES];
+};
+
+/* ---- what a pass is made for ---- */
+
+void crv_vulkan_pass_desc_init(crv_vulkan_pass_desc *desc, size_t struct_size)
+{
+    if (!desc || struct_size != sizeof *desc)
+        return;
+    *desc = (crv_vulkan_pass_desc){.struct_size = struct_size,
+                                   .frames = 2,
+                                   .depth_format = VK_FORMAT_D32_SFLOAT,
+                                   .result_format = VK_FORMAT_R8_UNORM};
+}
+
+static crv_status check_desc(const crv_logger *logger, const crv_vulkan_pass_desc *desc)
+{
+    if (!desc || desc->struct_size != sizeof *desc)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "pass: desc is NULL or not initialised; begin with "
+                         "crv_vulkan_pass_desc_init()");
+    if (desc->frames < 1 || desc->frames > CRV_VULKAN_MAX_FRAMES)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "pass: %d frames in flight; 1 to %d", desc->frames,
+                         CRV_VULKAN_MAX_FRAMES);
+    if (desc->normals < CRV_VULKAN_NORMALS_NONE
+        || desc->normals > CRV_VULKAN_NORMALS_OCT_HALVED)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "pass: unknown encoding of normals %d", (int)desc->normals);
+    if (desc->normal_space != CRV_NORMAL_VIEW && desc->normal_space != CRV_NORMAL_WORLD)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "pass: normal space %d is neither view nor world",
+                         (int)desc->normal_space);
+    if (desc->level_px < 0)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "pass: level_px is %d; 0 or more", desc->level_px);
+    return CRV_OK;
+}
+
+static int has_features(const crv__device *d, VkFormat format,
+                        VkFormatFeatureFlags features)
+{
+    VkFormatProperties properties;
+    d->vk.GetPhysicalDeviceFormatProperties(d->physical, format, &properties);
+    return (properties.optimalTilingFeatures & features) == features;
+}
+
+static crv_status check_formats(const crv__device *d, const crv_vulkan_pass_desc *desc)
+{
+    const VkFormatFeatureFlags sampled = VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT,
+                               storage = VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT;
+    if (!has_features(d, desc->depth_format, sampled))
+        return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
+                         "pass: %s does not sample depth_format %d; give another",
+                         d->properties.deviceName, (int)desc->depth_format);
+    if (desc->normals && !has_features(d, desc->normal_format, sampled))
+        return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
+                         "pass: %s does not sample normal_format %d; give another",
+                         d->properties.deviceName, (int)desc->normal_format);
+    if (!has_features(d, desc->result_format, storage))
+        return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
+                         "pass: %s has no storage images of result_format %d; give "
+                         "R32_SFLOAT, which every device has",
+                         d->properties.deviceName, (int)desc->result_format);
+    return CRV_OK;
+}
+
+/* The smallest format that keeps the error far below what can be seen, where the device
+ * has it; every device has the other. */
+static VkFormat preferred(const crv__device *d, VkFormat small, VkFormat sure)
+{
+    const VkFormatFeatureFlags both =
+        VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT | VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT;
+    return has_features(d, small, both) ? small : sure;
+}
+
+/* ---- life ---- */
+
+/* By how many pixels depth is taken apart: a workgroup then has one place of the tile. */
+static int32_t apart_edge(const crv__device *d, const crv__setup *setup,
+                          const crv_vulkan_pass_desc *desc)
+{
+    const int32_t edge = setup->options.noise_size;
+    const uint32_t layers = (uint32_t)(edge * edge * setup->desc.layers);
+    const int fits =
+        edge >= 2 && edge <= 8 && layers <= d->properties.limits.maxImageArrayLayers;
+    return desc->deinterleave && fits ? edge : 1;
+}
+
+static crv_status create_parts(crv_vulkan_pass *p)
+{
+    const crv__device *d = p->device;
+    const crv__slot_desc slot = {
+        .normal_format =
+            preferred(d, VK_FORMAT_R16G16B16A16_SNORM, VK_FORMAT_R32G32B32A32_SFLOAT),
+        .accessibility_format = preferred(d, VK_FORMAT_R16_SFLOAT, VK_FORMAT_R32_SFLOAT),
+        .timestamps = p->desc.timestamps && d->timestamp_bits > 0};
+    const crv__program_desc program = {.converts = 1,
+                                       .edge = apart_edge(d, &p->setup, &p->desc),
+                                       .level_px =
+                                           p->desc.deinterleave ? 0 : p->desc.level_px};
+    if (crv__setup_patterns(&p->setup))
+        return crv__fail(&d->logger, CRV_ERROR_OUT_OF_MEMORY, "pass: out of memory");
+    crv_status status = crv__program_create(&p->program, d, &p->setup, &program);
+    for (int32_t i = 0; status == CRV_OK && i < p->desc.frames; i++)
+        status = crv__slot_create(&p->slots[i], &p->program, &p->setup, &slot);
+    return status;
+}
+
+crv_status crv_vulkan_pass_create(crv_context *context, const crv_options *options,
+                                  const crv_gbuffer_desc *gbuffer,
+                                  const crv_vulkan_pass_desc *desc, crv_vulkan_pass **out)
+{
+    if (!context)
+        return CRV_ERROR_INVALID_ARGUMENT;
+    const crv_logger *logger = &context->logger;
+    const crv__device *d = crv__device_of(context);
+    if (!out)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT, "pass: out is NULL");
+    if (!d)
+        return crv__fail(logger, CRV_ERROR_UNSUPPORTED,
+                         "pass: the context has no Vulkan device; make it with "
+                         "crv_vulkan_context_create()");
+    crv_status status = crv_options_check(options, logger);
+    if (status == CRV_OK)
+        status = crv__gbuffer_desc_check(logger, gbuffer);
+    if (status == CRV_OK)
+        status = check_desc(logger, desc);
+    if (status == CRV_OK)
+        status = check_formats(d, desc);
+    if (status)
+        return status;
+    crv__setup setup = {.context = context,
+                        .method = crv__method_of(options->method),
+                        .options = *options,
+                        .desc = *gbuffer};
+    if (options->filter)
+        setup.filter = crv__filter_of(options->filter);
+    status = crv__setup_check(d, &setup);
+    if (status)
+        return status;
+    crv_vulkan_pass *p = crv__allocate(&context->allocator, 1, sizeof *p);
+    if (!p)
+        return crv__fail(logger, CRV_ERROR_OUT_OF_MEMORY, "pass: out of memory");
+    p->context = context;
+    p->device = d;
+    p->setup = setup;
+    p->desc = *desc;
+    status = create_parts(p);
+    if (status)
+        crv_vulkan_pass_destroy(p);
+    else
+        *out = p;
+    return status;
+}
+
+void crv_vulkan_pass_destroy(crv_vulkan_pass *p)
+{
+    if (!p)
+        return;
+    const crv_allocator *allocator = &p->context->allocator;
+    for (int32_t i = 0; i < CRV_VULKAN_MAX_FRAMES; i++)
+        crv__slot_destroy(&p->slots[i]);
+    crv__program_destroy(&p->program);
+    crv__setup_release(&p->setup);
+    crv__release(allocator, p, 1, sizeof *p);
+}
+
+uint64_t crv_vulkan_pass_bytes(const crv_vulkan_pass *p)
+{
+    uint64_t bytes = p ? p->program.constants.size : 0;
+    for (int32_t i = 0; p && i < p->desc.frames; i++)
+        bytes += crv__slot_bytes(&p->slots[i]);
+    return bytes;
+}
+
+/* ---- a frame ---- */
+
+void crv_vulkan_frame_init(crv_vulkan_frame *frame, size_t struct_size)
+{
+    if (!frame || struct_size != sizeof *frame)
+        return;
+    *frame = (crv_vulkan_frame){.struct_size = struct_size,
+                                .depth_encoding = crv_depth_format_planar(),
+                                .result_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                                .result_stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT
+                                                 | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                .result_access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+    for (int i = 0; i < CRV_MAX_LAYERS; i++)
+        frame->depth[i].layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    frame->normals.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+}
+
+static int is_readable(const crv_vulkan_input *input)
+{
+    switch (input->layout) {
+    case VK_IMAGE_LAYOUT_GENERAL:
+    case VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL:
+    case VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL:
+    case VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL:
+    case VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL:
+    case VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_STENCIL_ATTACHMENT_OPTIMAL:
+        return input->view != VK_NULL_HANDLE;
+    default:
+        return 0;
+    }
+}
+
+static crv_status check_frame(const crv_vulkan_pass *p, VkCommandBuffer commands,
+                              const crv_vulkan_frame *frame)
+{
+    const crv_logger *logger = &p->context->logger;
+    if (!commands)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "pass: the command buffer is NULL");
+    if (!frame || frame->struct_size != sizeof *frame)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "pass: frame is NULL or not initialised; begin with "
+                         "crv_vulkan_frame_init()");
+    if (frame->index < 0 || frame->index >= p->desc.frames)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "pass: frame %d of %d in flight", frame->index, p->desc.frames);
+    for (int32_t i = 0; i < p->setup.desc.layers; i++) {
+        if (!is_readable(&frame->depth[i]))
+            return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                             "pass: depth layer %d has no view, or layout %d, which "
+                             "shaders cannot read",
+                             i, (int)frame->depth[i].layout);
+    }
+    if (p->desc.normals && !is_readable(&frame->normals))
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "pass: normals have no view, or layout %d, which shaders cannot "
+                         "read",
+                         (int)frame->normals.layout);
+    if (!frame->result || !frame->result_view)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "pass: the result's image or view is missing");
+    if (frame->result_layout == VK_IMAGE_LAYOUT_UNDEFINED
+        || frame->result_layout == VK_IMAGE_LAYOUT_PREINITIALIZED)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "pass: the result cannot be left in layout %d",
+                         (int)frame->result_layout);
+    return crv__camera_check(logger, &frame->camera);
+}
+
+static void fill_params(crv_vulkan_pass *p, const crv_vulkan_frame *frame,
+                        crv__slot *slot)
+{
+    crv__params params = {0};
+    crv__setup_params(&p->setup, &params);
+    crv__camera_params(&p->setup.desc, &frame->camera, &params);
+    params.use_depth = p->setup.options.characteristic != CRV_CHARACTERISTIC_FIELD;
+    memcpy(slot->params.block.mapped, &params, sizeof params);
+}
+
+/* depth.glsl says from where a hardware depth is counted, and why. */
+static void fill_depth(crv__push *push, const crv__depth_map *map)
+{
+    const int reversed = map->format.encoding == CRV_DEPTH_REVERSED;
+    const int other_end = reversed == (map->camera->projection == CRV_ORTHOGRAPHIC);
+    push->depth_encoding = (int32_t)map->format.encoding;
+    push->depth_background = map->format.background;
+    push->depth_a = (float)(other_end ? map->a + map->b : map->a);
+    push->depth_b = (float)(other_end ? -map->b : map->b);
+}
+
+static void fill_normals(crv__push *push, const crv_vulkan_pass *p,
+                         const crv_vulkan_frame *frame)
+{
+    static const float IDENTITY[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    push->normal_encoding = (int32_t)p->desc.normals;
+    memcpy(push->to_view,
+           p->desc.normal_space == CRV_NORMAL_WORLD ? frame->camera.world_to_view
+                                                    : IDENTITY,
+           sizeof push->to_view);
+}
+
+static void set_out(crv__push *push, crv__rectangle r)
+{
+    push->out_x = r.x;
+    push->out_y = r.y;
+    push->out_width = r.width;
+    push->out_height = r.height;
+}
+
+/* What was written is read next, and images that were read are written. */
+static void record_between(const crv__device *d, VkCommandBuffer commands)
+{
+    crv__record_barrier(
+        d, commands, CRV__WRITTEN,
+        (crv__access){CRV__SAMPLED.stages, CRV__SAMPLED.access | CRV__WRITTEN.access});
+}
+
+/* Other layouts of depth, none of which waits for another or for the normals. */
+static void record_layouts(crv_vulkan_pass *p, crv__slot *slot, VkCommandBuffer commands,
+                           crv__push *push)
+{
+    const crv_gbuffer_desc *g = &p->setup.desc;
+    if (p->program.deinterleave.pipeline) {
+        crv__slot_record_step(slot, commands, &p->program.deinterleave, slot->apart_set,
+                              push);
+        crv__slot_record_time(slot, commands);
+    }
+    if (!p->program.prefilter.pipeline)
+        return;
+    for (push->layer = 0; push->layer < g->layers; push->layer++) {
+        for (push->pass = 1; push->pass < slot->depth.desc.levels; push->pass++) {
+            set_out(push, (crv__rectangle){0, 0, g->width >> push->pass,
+                                           g->height >> push->pass});
+            crv__slot_record_step(slot, commands, &p->program.prefilter,
+                                  slot->level_set[push->layer][push->pass], push);
+        }
+    }
+    push->layer = push->pass = 0;
+    crv__slot_record_time(slot, commands);
+}
+
+static void record_converts(crv_vulkan_pass *p, crv__slot *slot, VkCommandBuffer commands,
+                            const crv_vulkan_frame *frame, crv__push *push)
+{
+    const crv_gbuffer_desc *g = &p->setup.desc;
+    set_out(push, (crv__rectangle){0, 0, g->width, g->height});
+    for (push->layer = 0; push->layer < g->layers; push->layer++) {
+        const VkDescriptorSet set = slot->depth_set[push->layer];
+        const crv_vulkan_input *depth = &frame->depth[push->layer];
+        crv__bind_image(&p->program, set, CRV__BIND_HOST, depth->view, depth->layout);
+        crv__slot_record_step(slot, commands, &p->program.depth, set, push);
+        crv__slot_record_time(slot, commands);
+    }
+    push->layer = 0;
+    record_between(p->device, commands);
+    if (p->desc.normals)
+        crv__bind_image(&p->program, slot->normals_set, CRV__BIND_HOST,
+                        frame->normals.view, frame->normals.layout);
+    crv__slot_record_step(slot, commands, &p->program.normals, slot->normals_set, push);
+    crv__slot_record_time(slot, commands);
+    record_layouts(p, slot, commands, push);
+    record_between(p->device, commands);
+}
+
+/* The last of them writes the host's image. */
+static void record_passes(crv_vulkan_pass *p, crv__slot *slot, VkCommandBuffer commands,
+                          const crv_vulkan_frame *frame, crv__push *push)
+{
+    const crv_gbuffer_desc *g = &p->setup.desc;
+    const crv__rectangle result = {g->guard_left, g->guard_top,
+                                   g->width - g->guard_left - g->guard_right,
+                                   g->height - g->guard_top - g->guard_bottom};
+    const int32_t passes = p->program.passes;
+    push->in_x = slot->rectangle.x;
+    push->in_y = slot->rectangle.y;
+    push->in_width = slot->rectangle.width;
+    push->in_height = slot->rectangle.height;
+    const VkDescriptorSet last =
+        passes ? slot->filter_set[passes - 1] : slot->estimate_set;
+    crv__bind_image(&p->program, last, CRV__BIND_OUTPUT, frame->result_view,
+                    VK_IMAGE_LAYOUT_GENERAL);
+    set_out(push, passes ? slot->rectangle : result);
+    crv__slot_record_step(slot, commands, &p->program.estimate, slot->estimate_set, push);
+    crv__slot_record_time(slot, commands);
+    for (push->pass = 0; push->pass < passes; push->pass++) {
+        record_between(p->device, commands);
+        set_out(push, push->pass + 1 < passes ? slot->rectangle : result);
+        crv__slot_record_step(slot, commands, &p->program.filter[push->pass],
+                              slot->filter_set[push->pass], push);
+        crv__slot_record_time(slot, commands);
+    }
+}
+
+crv_status crv_vulkan_pass_record(crv_vulkan_pass *p, VkCommandBuffer commands,
+                                  const crv_vulkan_frame *frame)
+{
+    if (!p)
+        return CRV_ERROR_INVALID_ARGUMENT;
+    crv_status status = check_frame(p, commands, frame);
+    crv__depth_map map;
+    if (status == CRV_OK)
+        status = crv__depth_map_init(&map, &p->context->logger, &frame->camera,
+                                     &frame->depth_encoding);
+    if (status)
+        return status;
+    crv__slot *slot = &p->slots[frame->index];
+    crv__push push = {0};
+    fill_params(p, frame, slot);
+    fill_depth(&push, &map);
+    fill_normals(&push, p, frame);
+    crv__slot_record_begin(slot, commands);
+    crv__record_layout(p->device, commands, frame->result, VK_IMAGE_LAYOUT_UNDEFINED,
+                       VK_IMAGE_LAYOUT_GENERAL, CRV__EARLIER, CRV__WRITTEN);
+    record_converts(p, slot, commands, frame, &push);
+    record_passes(p, slot, commands, frame, &push);
+    crv__record_layout(p->device, commands, frame->result, VK_IMAGE_LAYOUT_GENERAL,
+                       frame->result_layout, CRV__WRITTEN,
+                       (crv__access){frame->result_stages, frame->result_access});
+    p->recorded[frame->index] = 1;
+    return CRV_OK;
+}
+
+/* ---- times ---- */
+
+static const char *step_name(const crv_vulkan_pass *p, int32_t step)
+{
+    static const char *const PASSES[2] = {"filter, first pass", "filter, second pass"};
+    if (step < p->setup.desc.layers)
+        return "depth";
+    step -= p->setup.desc.layers;
+    if (step-- == 0)
+        return "normals";
+    if (p->program.deinterleave.pipeline && step-- == 0)
+        return "deinterleave";
+    if (p->program.prefilter.pipeline && step-- == 0)
+        return "levels";
+    if (step-- == 0)
+        return p->setup.method->info.name;
+    return p->program.passes == 1 ? p->setup.filter->info.name : PASSES[step];
+}
+
+crv_status crv_vulkan_pass_times(crv_vulkan_pass *p, int32_t index,
+                                 crv_vulkan_time *times, int32_t *count)
+{
+    if (!p)
+        return CRV_ERROR_INVALID_ARGUMENT;
+    const crv__device *d = p->device;
+    if (index < 0 || index >= p->desc.frames || !times || !count)
+        return crv__fail(&d->logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "pass: times and count must be given, and frame %d of %d", index,
+                         p->desc.frames);
+    crv__slot *slot = &p->slots[index];
+    if (!slot->queries)
+        return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
+                         "pass: no timestamps; set desc.timestamps, on a queue family "
+                         "that has them");
+    if (!p->recorded[index])
+        return CRV_ERROR_NOT_READY;
+    uint64_t ticks[CRV__MOST_STEPS + 1];
+    const VkResult result = d->vk.GetQueryPoolResults(
+        d->device, slot->queries, 0, (uint32_t)slot->query_count, sizeof ticks, ticks,
+        sizeof *ticks, VK_QUERY_RESULT_64_BIT);
+    if (result == VK_NOT_READY)
+        return CRV_ERROR_NOT_READY;
+    if (result)
+        return crv__device_fail(d, result, "timestamps");
+    const uint64_t mask =
+        d->timestamp_bits < 64 ? ((uint64_t)1 << d->timestamp_bits) - 1 : UINT64_MAX;
+    *count = slot->query_count - 1;
+    for (int32_t i = 0; i < *count; i++)
+        times[i] = (crv_vulkan_time){
+            step_name(p, i), (double)((ticks[i + 1] - ticks[i]) & mask)
+                                 * (double)d->properties.limits.timestampPeriod * 1e-6};
+    return CRV_OK;
+}

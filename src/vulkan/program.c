@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: MIT */
+#include "vulkan/program.h"
+
+#include <string.h>
+
+/* Offsets of storage buffers: every device takes a multiple of this. */
+enum { OFFSET_ALIGNMENT = 256 };
+
+/* How often the loops of a pixel's estimate turn, at most. */
+static double loop_rounds(const crv__setup *setup)
+{
+    const crv_options *o = &setup->options;
+    const int has_points = setup->pattern || setup->method->pattern_fill;
+    const int has_rays =
+        crv_option_applies(crv_option_find("normal_rays"), &setup->method->info, NULL);
+    const int has_steps =
+        crv_option_applies(crv_option_find("steps"), &setup->method->info, NULL);
+    double rounds = has_points ? o->samples : o->directions;
+    if (has_steps)
+        rounds *= (double)o->steps * (has_rays ? 1 + o->normal_rays : 1);
+    return setup->desc.layers > 1 ? rounds * (1 + setup->desc.layers) : rounds;
+}
+
+crv_status crv__setup_check(const crv__device *d, const crv__setup *setup)
+{
+    enum { LAVAPIPE_ROUNDS = 65535 };
+    const uint32_t most = d->properties.limits.maxImageDimension2D;
+    if ((uint32_t)setup->desc.width > most || (uint32_t)setup->desc.height > most)
+        return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
+                         "vulkan: %s has images of at most %u px, not %d x %d; use the "
+                         "CPU",
+                         d->properties.deviceName, most, setup->desc.width,
+                         setup->desc.height);
+    if (d->is_lavapipe && loop_rounds(setup) > LAVAPIPE_ROUNDS)
+        return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
+                         "vulkan: lavapipe breaks loops off after %d rounds, and gives a "
+                         "wrong picture; take fewer samples, or the CPU",
+                         LAVAPIPE_ROUNDS);
+    return CRV_OK;
+}
+
+/* All that a shader may have fixed; -1: read from the buffers. */
+static void clear_specs(crv__pipeline *pipeline, int32_t group, int32_t specs[CRV__SPECS])
+{
+    *pipeline = (crv__pipeline){.group = group, .interleave = 1};
+    for (int i = 0; i < CRV__SPECS; i++)
+        specs[i] = -1;
+    specs[CRV__SPEC_SIZE_X] = specs[CRV__SPEC_SIZE_Y] = group;
+    specs[CRV__SPEC_INTERLEAVE] = specs[CRV__SPEC_DEPTH_EDGE] = 1;
+    specs[CRV__SPEC_NORMALS_OCTAHEDRAL] = specs[CRV__SPEC_LOD_PX] = 0;
+}
+
+static crv_status take_estimate(crv__program *p, const crv__setup *setup, int32_t group)
+{
+    const crv_options *o = &setup->options;
+    int32_t specs[CRV__SPECS];
+    clear_specs(&p->estimate, group, specs);
+    specs[CRV__SPEC_INTERLEAVE] = specs[CRV__SPEC_DEPTH_EDGE] = p->estimate.interleave =
+        p->desc.edge;
+    specs[CRV__SPEC_LOD_PX] = p->desc.level_px;
+    specs[CRV__SPEC_FALLOFF] = (int32_t)o->falloff;
+    specs[CRV__SPEC_DIRECTIONS] = o->directions;
+    specs[CRV__SPEC_STEPS] = o->steps;
+    specs[CRV__SPEC_NORMAL_RAYS] = o->normal_rays;
+    specs[CRV__SPEC_SAMPLES] = o->samples;
+    specs[CRV__SPEC_ATTENUATION] = (int32_t)o->attenuation;
+    specs[CRV__SPEC_LAYERS] = setup->desc.layers;
+    specs[CRV__SPEC_NOISE_SIZE] = o->noise_size;
+    specs[CRV__SPEC_LAYERS_SOLID] = setup->desc.layer_kind == CRV_LAYERS_SOLID;
+    specs[CRV__SPEC_SPACING] = (int32_t)o->spacing;
+    specs[CRV__SPEC_BIASED] = o->bias_deg > 0;
+    return crv__pipeline_take(p->device, setup->method->info.name, specs,
+                              &p->estimate.pipeline);
+}
+
+static crv_status take_filter(crv__program *p, const crv__setup *setup, int32_t group,
+                              int32_t pass)
+{
+    int32_t specs[CRV__SPECS];
+    clear_specs(&p->filter[pass], group, specs);
+    specs[CRV__SPEC_FILTER_SLOPE] = setup->options.filter_slope;
+    specs[CRV__SPEC_FILTER_PASS] = pass;
+    return crv__pipeline_take(p->device, setup->filter->info.name, specs,
+                              &p->filter[pass].pipeline);
+}
+
+static crv_status take_other(crv__program *p, const char *shader, int32_t group,
+                             int32_t edge, crv__pipeline *out)
+{
+    int32_t specs[CRV__SPECS];
+    clear_specs(out, group, specs);
+    specs[CRV__SPEC_INTERLEAVE] = specs[CRV__SPEC_DEPTH_EDGE] = out->interleave = edge;
+    return crv__pipeline_take(p->device, shader, specs, &out->pipeline);
+}
+
+/* Filters share texels in a workgroup: the larger, the fewer are fetched twice. */
+static int32_t filter_group(const crv__device *d)
+{
+    return d->properties.limits.maxComputeWorkGroupInvocations >= 256 ? 16 : 8;
+}
+
+static crv_status take_pipelines(crv__program *p, const crv__setup *setup)
+{
+    enum { GROUP = 8 };
+    crv_status status = take_estimate(p, setup, GROUP);
+    for (int32_t i = 0; status == CRV_OK && i < p->passes; i++)
+        status = take_filter(p, setup, filter_group(p->device), i);
+    if (status == CRV_OK && p->desc.converts)
+        status = take_other(p, "depth_convert", GROUP, 1, &p->depth);
+    if (status == CRV_OK && p->desc.converts)
+        status = take_other(p, "normals_convert", GROUP, 1, &p->normals);
+    if (status == CRV_OK && p->desc.edge > 1)
+        status = take_other(p, "deinterleave", GROUP, p->desc.edge, &p->deinterleave);
+    if (status == CRV_OK && p->desc.level_px > 0)
+        status = take_other(p, "prefilter", GROUP, 1, &p->prefilter);
+    return status;
+}
+
+static VkDeviceSize aligned(VkDeviceSize size)
+{
+    return (size + OFFSET_ALIGNMENT - 1) / OFFSET_ALIGNMENT * OFFSET_ALIGNMENT;
+}
+
+static crv_status create_constants(crv__program *p, const crv__setup *setup)
+{
+    const size_t noise = (size_t)setup->options.noise_size
+                         * (size_t)setup->options.noise_size * sizeof *setup->noise;
+    const size_t directions = (size_t)setup->options.directions * 2 * sizeof(float);
+    /* Methods without points still have the binding. */
+    const size_t pattern =
+        setup->pattern ? (size_t)setup->options.samples * 4 * sizeof(float) : 0;
+    const VkDeviceSize second = aligned(noise), third = second + aligned(directions);
+    const crv_status status =
+        crv__buffer_create(&p->constants, p->device, third + aligned(pattern + 16),
+                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    if (status)
+        return status;
+    char *bytes = p->constants.block.mapped;
+    memcpy(bytes, setup->noise, noise);
+    memcpy(bytes + second, setup->directions, directions);
+    if (setup->pattern)
+        memcpy(bytes + third, setup->pattern, pattern);
+    const VkBuffer buffer = p->constants.buffer;
+    p->table[CRV__BIND_NOISE] = (VkDescriptorBufferInfo){buffer, 0, noise};
+    p->table[CRV__BIND_DIRECTIONS] = (VkDescriptorBufferInfo){buffer, second, directions};
+    p->table[CRV__BIND_PATTERN] =
+        (VkDescriptorBufferInfo){buffer, third, pattern ? pattern : 16};
+    return CRV_OK;
+}
+
+crv_status crv__program_create(crv__program *p, const crv__device *device,
+                               const crv__setup *setup, const crv__program_desc *desc)
+{
+    *p = (crv__program){.device = device,
+                        .desc = *desc,
+                        .passes = setup->filter ? setup->filter->passes : 0};
+    const crv_status status = create_constants(p, setup);
+    return status ? status : take_pipelines(p, setup);
+}
+
+void crv__program_destroy(crv__program *p)
+{
+    const crv__device *d = p->device;
+    if (!d)
+        return;
+    const VkPipeline pipelines[] = {p->depth.pipeline,     p->normals.pipeline,
+                                    p->estimate.pipeline,  p->filter[0].pipeline,
+                                    p->filter[1].pipeline, p->deinterleave.pipeline,
+                                    p->prefilter.pipeline};
+    for (size_t i = 0; i < sizeof pipelines / sizeof pipelines[0]; i++)
+        crv__pipeline_give(d, pipelines[i]);
+    crv__buffer_destroy(&p->constants, d);
+    *p = (crv__program){0};
+}

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: MIT */
+/* The pipelines of one method and filter, and the constant buffer that they share. */
+#ifndef CRV_VULKAN_PROGRAM_H
+#define CRV_VULKAN_PROGRAM_H
+
+#include "shared/push.h"
+#include "vulkan/memory.h"
+#include "vulkan/pipelines.h"
+
+enum { CRV__MOST_PASSES = 2 }; /* of a filter */
+
+typedef struct crv__pipeline {
+    VkPipeline pipeline;
+    int32_t group;      /* edge of a workgroup, px */
+    int32_t interleave; /* pixels from one invocation to the next */
+} crv__pipeline;
+
+/* What a program does beside estimate and filter. */
+typedef struct crv__program_desc {
+    int converts;     /* 0 or 1: the host's images are converted on the device */
+    int32_t edge;     /* depth is taken apart by so many px; 1: it is not */
+    int32_t level_px; /* from where coarser levels of depth are read; 0: never */
+} crv__program_desc;
+
+typedef struct crv__program {
+    const crv__device *device;
+    crv__pipeline depth, normals; /* only where the host's images are converted */
+    crv__pipeline deinterleave, prefilter; /* only where the desc says so */
+    crv__pipeline estimate, filter[CRV__MOST_PASSES];
+    crv__program_desc desc;
+    int32_t passes;                                /* of the filter */
+    crv__buffer constants;                         /* noise, directions, pattern */
+    VkDescriptorBufferInfo table[CRV__BIND_DEPTH]; /* where they are, by binding */
+} crv__program;
+
+/* UNSUPPORTED with a line where the device cannot compute it. */
+crv_status crv__setup_check(const crv__device *d, const crv__setup *setup);
+
+/* The setup has its patterns. Where it fails, crv__program_destroy() takes back the rest.
+ */
+crv_status crv__program_create(crv__program *p, const crv__device *device,
+                               const crv__setup *setup, const crv__program_desc *desc);
+void crv__program_destroy(crv__program *p);
+
+#endif

@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: MIT */
+/* Commands: barriers and dispatches. */
+#include "vulkan/slot.h"
+
+const crv__access CRV__EARLIER = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                  VK_ACCESS_2_MEMORY_WRITE_BIT};
+const crv__access CRV__WRITTEN = {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                  VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
+const crv__access CRV__SAMPLED = {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                  VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+const crv__access CRV__COPIED_TO = {VK_PIPELINE_STAGE_2_COPY_BIT,
+                                    VK_ACCESS_2_TRANSFER_WRITE_BIT};
+const crv__access CRV__COPIED_FROM = {VK_PIPELINE_STAGE_2_COPY_BIT,
+                                      VK_ACCESS_2_TRANSFER_READ_BIT};
+const crv__access CRV__HOST_READS = {VK_PIPELINE_STAGE_2_HOST_BIT,
+                                     VK_ACCESS_2_HOST_READ_BIT};
+
+void crv__record_barrier(const crv__device *d, VkCommandBuffer commands, crv__access from,
+                         crv__access to)
+{
+    const VkMemoryBarrier2 barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                      .srcStageMask = from.stages,
+                                      .srcAccessMask = from.access,
+                                      .dstStageMask = to.stages,
+                                      .dstAccessMask = to.access};
+    const VkDependencyInfo info = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                   .memoryBarrierCount = 1,
+                                   .pMemoryBarriers = &barrier};
+    d->vk.CmdPipelineBarrier2(commands, &info);
+}
+
+static VkImageMemoryBarrier2 image_barrier(VkImage image, VkImageLayout before,
+                                           VkImageLayout after, crv__access from,
+                                           crv__access to)
+{
+    return (VkImageMemoryBarrier2){.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+                                   .srcStageMask = from.stages,
+                                   .srcAccessMask = from.access,
+                                   .dstStageMask = to.stages,
+                                   .dstAccessMask = to.access,
+                                   .oldLayout = before,
+                                   .newLayout = after,
+                                   .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                   .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                   .image = image,
+                                   .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0,
+                                                        VK_REMAINING_MIP_LEVELS, 0,
+                                                        VK_REMAINING_ARRAY_LAYERS}};
+}
+
+void crv__record_layout(const crv__device *d, VkCommandBuffer commands, VkImage image,
+                        VkImageLayout before, VkImageLayout after, crv__access from,
+                        crv__access to)
+{
+    const VkImageMemoryBarrier2 barrier = image_barrier(image, before, after, from, to);
+    const VkDependencyInfo info = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                   .imageMemoryBarrierCount = 1,
+                                   .pImageMemoryBarriers = &barrier};
+    d->vk.CmdPipelineBarrier2(commands, &info);
+}
+
+void crv__slot_record_begin(crv__slot *s, VkCommandBuffer commands)
+{
+    const crv__device *d = s->program->device;
+    const crv__access earlier = CRV__EARLIER;
+    const crv__access writes = {
+        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
+        VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT
+            | VK_ACCESS_2_TRANSFER_WRITE_BIT};
+    const VkImage images[] = {s->depth.image, s->normals.image, s->accessibility[0].image,
+                              s->accessibility[1].image, s->apart.image};
+    enum { IMAGES = sizeof images / sizeof images[0] };
+    VkImageMemoryBarrier2 barriers[IMAGES];
+    uint32_t count = 0;
+    for (int i = 0; i < IMAGES; i++) {
+        if (images[i])
+            barriers[count++] = image_barrier(images[i], VK_IMAGE_LAYOUT_UNDEFINED,
+                                              VK_IMAGE_LAYOUT_GENERAL, earlier, writes);
+    }
+    const VkDependencyInfo info = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                   .imageMemoryBarrierCount = count,
+                                   .pImageMemoryBarriers = barriers};
+    d->vk.CmdPipelineBarrier2(commands, &info);
+    s->query_count = 0;
+    if (!s->queries)
+        return;
+    d->vk.CmdResetQueryPool(commands, s->queries, 0, CRV__MOST_STEPS + 1);
+    d->vk.CmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, s->queries,
+                             (uint32_t)s->query_count++);
+}
+
+void crv__slot_record_step(crv__slot *s, VkCommandBuffer commands,
+                           const crv__pipeline *pipeline, VkDescriptorSet set,
+                           const crv__push *push)
+{
+    const crv__program *p = s->program;
+    const crv__device *d = p->device;
+    const int32_t step = pipeline->interleave, tile = pipeline->group * step;
+    d->vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
+    d->vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
+                                d->pipelines->layout, 0, 1, &set, 0, NULL);
+    d->vk.CmdPushConstants(commands, d->pipelines->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                           sizeof *push, push);
+    d->vk.CmdDispatch(commands, (uint32_t)((push->out_width + tile - 1) / tile * step),
+                      (uint32_t)((push->out_height + tile - 1) / tile * step), 1);
+}
+
+void crv__slot_record_time(crv__slot *s, VkCommandBuffer commands)
+{
+    if (s->queries)
+        s->program->device->vk.CmdWriteTimestamp2(commands,
+                                                  VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                                  s->queries, (uint32_t)s->query_count++);
+}

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: MIT */
+/* The main() of every method: accessibility(pixel, depth) of what is not background, then
+ * intensity and contrast. */
+#ifndef ESTIMATE_GLSL
+#define ESTIMATE_GLSL
+
+#include "common.glsl"
+
+/* max(0, 1 - intensity (1 - A))^contrast, at most 1 */
+float finished(float a)
+{
+    const float strong = 1 - params.intensity * (1 - a);
+    const float clamped = strong > 0 ? (strong < 1 ? strong : 1) : 0;
+    return clamped > 0 && params.contrast != 1 ? pow(clamped, params.contrast) : clamped;
+}
+
+void main()
+{
+    const ivec2 at = pixel_of_invocation();
+    if (!in_output(at))
+        return;
+    const float d = depth_at(at, 0);
+    const float a = is_surface(d) ? accessibility(at, d) : 1;
+    write_output(at, vec4(finished(a)));
+}
+
+#endif

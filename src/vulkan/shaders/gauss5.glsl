@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * A 5x5 Gaussian, each tap divided by its depth deviation from the centre.
+ * Rouslan Dimitrov, Louis Bavoil, Miguel Sainz: Horizon-Split Ambient Occlusion, 2008,
+ * section 4.1.3. src/filters/gauss5.c
+ */
+#ifndef GAUSS5_GLSL
+#define GAUSS5_GLSL
+
+#include "common.glsl"
+
+const int REACH = 2;
+#define TILE_TEXELS ((gl_WorkGroupSize.x + 2 * REACH) * (gl_WorkGroupSize.y + 2 * REACH))
+
+#include "tap.glsl"
+
+const float BINOMIAL[REACH + 1] = {6, 4, 1}; /* the 5-tap Gaussian, unscaled */
+
+ivec2 window_before()
+{
+    return ivec2(REACH);
+}
+
+ivec2 window_after()
+{
+    return ivec2(REACH);
+}
+
+float filtered(int index, int row)
+{
+    const Centre centre = centre_at(index, row, ivec2(1));
+    float sum = 0, weights = 0;
+    for (int dy = -REACH; dy <= REACH; dy++) {
+        for (int dx = -REACH; dx <= REACH; dx++) {
+            const Tap tap = tap_at(centre, ivec2(dx, dy));
+            /* An eighth keeps the centre, whose deviation is 0, finite. */
+            const float weight = BINOMIAL[abs(dx)] * BINOMIAL[abs(dy)] * tap.likeness
+                                 / (tap.deviation + 0.125);
+            sum += tap.likeness > 0 ? weight * tap.value : 0;
+            weights += tap.likeness > 0 ? weight : 0;
+        }
+    }
+    return sum / weights; /* the centre weighs 36 * 8 */
+}
+
+#endif

@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: MIT */
+/* Pipes: the part of a view ray inside a sphere, and how much of it is open.
+ * src/methods/pipe.h */
+#ifndef PIPE_GLSL
+#define PIPE_GLSL
+
+#include "frame.glsl"
+
+/* A pipe goes along z of clip space (2010): the view ray of a texel's centre, on which
+ * the depth buffer is exact. */
+struct Pipe {
+    ivec2 texel; /* may lie outside the buffers */
+    float entry_z,
+        exit_z; /* planar depth at which the ray enters and leaves the sphere */
+};
+
+/*
+ * The pipe through the sphere's centre + radius * the pattern's disk point, turned by the
+ * noise, snapped to the nearest texel. The centre is P + `offset`, P the point of pixel
+ * `at`; all is reckoned from P. False where the snapped ray misses the sphere, or the
+ * sphere is not all in front of the eye.
+ */
+bool pipe_through(ivec2 at, vec3 P, vec3 offset, float radius, vec2 point,
+                  crv__noise_texel noise, out Pipe pipe)
+{
+    pipe = Pipe(ivec2(0), 0, 0);
+    const vec2 disk = turned(noise, point);
+    const float d = -P.z, unit = view_unit(d - offset.z);
+    precise float x = params.cx + params.fx * (P.x + offset.x + disk.x * radius) / unit;
+    precise float y = params.cy - params.fy * (P.y + offset.y + disk.y * radius) / unit;
+    /* Pixels this far out are background anyway, and no longer fit an integer. */
+    if (!(unit > 0 && abs(x) < 1e9 && abs(y) < 1e9))
+        return false;
+    pipe.texel = ivec2(int(floor(x)), int(floor(y)));
+    /* The ray's point at P's depth, from P. */
+    precise vec3 aside =
+        vec3(float(pipe.texel.x - at.x) * params.inv_fx * view_unit(d),
+             float(at.y - pipe.texel.y) * params.inv_fy * view_unit(d), 0);
+    precise vec3 ray =
+        is_orthographic() ? vec3(0, 0, -1) : vec3((P.xy + aside.xy) / d, -1);
+    /* |aside + t ray - offset|^2 = radius^2, about the point nearest to the centre. */
+    precise vec3 to = offset - aside;
+    precise float squared = dot(ray, ray);
+    precise float middle = dot(to, ray) / squared;
+    precise vec3 miss = to - ray * middle;
+    precise float rest = radius * radius - dot(miss, miss);
+    if (!(rest > 0))
+        return false;
+    precise float half_chord = sqrt(rest / squared);
+    precise float entry_z = d + (middle - half_chord);
+    precise float exit_z = d + (middle + half_chord);
+    pipe.entry_z = entry_z;
+    pipe.exit_z = exit_z;
+    return is_orthographic() || entry_z > 0;
+}
+
+/* The length between two depths that lies outside the surfaces of the depth buffer at a
+ * texel: in front of the first layer, and in between where layers come in pairs. */
+float open_length(ivec2 texel, float from, float to)
+{
+    if (!in_buffers(texel))
+        return to - from;
+    float open = 0;
+    for (int layer = 0; layer < layer_count() && from < to; layer += 2) {
+        const float front = depth_at(texel, layer);
+        if (front > from)
+            open += min(front, to) - from;
+        if (!layers_are_solid() || layer + 1 >= layer_count() || front >= to)
+            return open;
+        from = max(from, depth_at(texel, layer + 1));
+    }
+    return from < to ? open + (to - from) : open;
+}
+
+#endif

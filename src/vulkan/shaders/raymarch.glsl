@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Ray marching through the depth buffer: the baseline of Dimitrov, Bavoil, Sainz 2008
+ * (Figure 12): Nd azimuths, and on each Nn rays whose z^2 is stratified uniformly in
+ * [0, 1], which is cosine density. src/methods/raymarch.c
+ */
+#ifndef RAYMARCH_GLSL
+#define RAYMARCH_GLSL
+
+#include "march.glsl"
+
+float accessibility(ivec2 at, float d)
+{
+    const crv__noise_texel noise = noise_at(at);
+    const vec3 n = normal_at(at), origin = lifted(unproject(at, d), n);
+    vec3 tangent, bitangent;
+    tangents_of(n, tangent, bitangent);
+    const int rays = max(normal_ray_count(), 1);
+    float occlusion = 0;
+    for (int i = 0; i < direction_count(); i++) {
+        const vec3 t = slice_tangent(noise, i, tangent, bitangent);
+        for (int k = 0; k < rays; k++) {
+            precise float z2 = (float(k) + stratum_at(noise, i)) / float(rays);
+            occlusion += marched(origin, raised(n, t, z2), noise.beta);
+        }
+    }
+    return 1 - occlusion / float(direction_count() * rays);
+}
+
+#endif

@@ -1,0 +1,152 @@
+/* SPDX-License-Identifier: MIT */
+#include "vulkan_engine.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+int engine_open(engine *e, int validate)
+{
+    *e = (engine){0};
+    if (host_open(&e->h, validate) != 0)
+        return -1;
+    const VkCommandPoolCreateInfo pool = {
+        .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+        .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
+        .queueFamilyIndex = e->h.family};
+    host_check(vkCreateCommandPool(e->h.device, &pool, NULL, &e->pool), "pool");
+    const VkCommandBufferAllocateInfo buffers = {
+        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+        .commandPool = e->pool,
+        .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+        .commandBufferCount = 2};
+    host_check(vkAllocateCommandBuffers(e->h.device, &buffers, e->commands), "commands");
+    return 0;
+}
+
+void engine_close(engine *e)
+{
+    vkDestroyCommandPool(e->h.device, e->pool, NULL);
+    host_close(&e->h);
+}
+
+crv_vulkan_host engine_host(const engine *e)
+{
+    crv_vulkan_host device;
+    crv_vulkan_host_init(&device, sizeof device);
+    device.get_instance_proc_addr = vkGetInstanceProcAddr;
+    device.instance = e->h.instance;
+    device.physical_device = e->h.physical;
+    device.device = e->h.device;
+    device.queue_family = e->h.family;
+    device.queue = e->h.queue;
+    device.has_synchronization2 = VK_TRUE;
+    device.has_storage_image_write_without_format = VK_TRUE;
+    return device;
+}
+
+VkCommandBuffer engine_begin(engine *e, int which)
+{
+    const VkCommandBufferBeginInfo begin = {
+        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+        .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+    host_check(vkBeginCommandBuffer(e->commands[which], &begin), "begin");
+    return e->commands[which];
+}
+
+void engine_submit(engine *e, int which)
+{
+    const VkCommandBufferSubmitInfo commands = {
+        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
+        .commandBuffer = e->commands[which]};
+    const VkSubmitInfo2 submit = {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
+                                  .commandBufferInfoCount = 1,
+                                  .pCommandBufferInfos = &commands};
+    host_check(vkEndCommandBuffer(e->commands[which]), "end");
+    host_check(vkQueueSubmit2(e->h.queue, 1, &submit, VK_NULL_HANDLE), "submit");
+}
+
+void engine_wait(engine *e)
+{
+    host_check(vkDeviceWaitIdle(e->h.device), "wait");
+}
+
+static int is_depth(VkFormat format)
+{
+    return format >= VK_FORMAT_D16_UNORM && format <= VK_FORMAT_D32_SFLOAT_S8_UINT;
+}
+
+/* A barrier has to name all aspects of an image. */
+static VkImageAspectFlags aspects_of(VkFormat format)
+{
+    if (format >= VK_FORMAT_D16_UNORM_S8_UINT)
+        return is_depth(format) ? VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT
+                                : VK_IMAGE_ASPECT_COLOR_BIT;
+    return is_depth(format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+}
+
+static VkBufferImageCopy whole(VkImageAspectFlags aspect, int width, int height)
+{
+    return (VkBufferImageCopy){.imageSubresource = {aspect, 0, 0, 1},
+                               .imageExtent = {(uint32_t)width, (uint32_t)height, 1}};
+}
+
+host_image engine_upload(engine *e, VkFormat format, int width, int height,
+                         const void *bytes, size_t size)
+{
+    const host_use nothing = {VK_PIPELINE_STAGE_2_NONE, 0, VK_IMAGE_LAYOUT_UNDEFINED};
+    const host_use written = {VK_PIPELINE_STAGE_2_COPY_BIT,
+                              VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                              VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
+    const host_use sampled = {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                              VK_ACCESS_2_SHADER_SAMPLED_READ_BIT,
+                              VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    const VkBufferImageCopy copy =
+        whole(is_depth(format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT,
+              width, height);
+    host_image image =
+        host_image_make(&e->h, format, width, height,
+                        VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+    host_buffer buffer = host_buffer_make(&e->h, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    memcpy(buffer.bytes, bytes, size);
+    const VkCommandBuffer commands = engine_begin(e, 0);
+    host_barrier(commands, image.image, aspects_of(format), nothing, written);
+    vkCmdCopyBufferToImage(commands, buffer.buffer, image.image,
+                           VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+    host_barrier(commands, image.image, aspects_of(format), written, sampled);
+    engine_submit(e, 0);
+    engine_wait(e);
+    host_buffer_free(&e->h, &buffer);
+    return image;
+}
+
+host_image engine_result(engine *e, VkFormat format, int width, int height)
+{
+    return host_image_make(&e->h, format, width, height,
+                           VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+}
+
+void *engine_download(engine *e, const host_image *image, int width, int height,
+                      size_t size)
+{
+    const VkBufferImageCopy copy = whole(VK_IMAGE_ASPECT_COLOR_BIT, width, height);
+    const VkMemoryBarrier2 barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                      .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
+                                      .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                      .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
+                                      .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
+    const VkDependencyInfo info = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                   .memoryBarrierCount = 1,
+                                   .pMemoryBarriers = &barrier};
+    host_buffer buffer = host_buffer_make(&e->h, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    const VkCommandBuffer commands = engine_begin(e, 0);
+    vkCmdCopyImageToBuffer(commands, image->image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                           buffer.buffer, 1, &copy);
+    vkCmdPipelineBarrier2(commands, &info);
+    engine_submit(e, 0);
+    engine_wait(e);
+    void *bytes = malloc(size);
+    if (bytes)
+        memcpy(bytes, buffer.bytes, size);
+    host_buffer_free(&e->h, &buffer);
+    return bytes;
+}

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT */
+/* vulkan_engine.h: what a renderer around the Vulkan backend has, for its tests. */
+#ifndef TESTS_VULKAN_ENGINE_H
+#define TESTS_VULKAN_ENGINE_H
+
+#include "../examples/vulkan_host_setup.h"
+#include "crevice/vulkan.h"
+
+typedef struct engine {
+    host h;
+    VkCommandPool pool;
+    VkCommandBuffer commands[2];
+} engine;
+
+/* As host_open(): -1 where there is no device, or no validation layer. */
+int engine_open(engine *e, int validate);
+void engine_close(engine *e);
+
+/* All set but the memory callbacks. */
+crv_vulkan_host engine_host(const engine *e);
+
+/* Begins one of the two command buffers; submits it without waiting; waits for all. */
+VkCommandBuffer engine_begin(engine *e, int which);
+void engine_submit(engine *e, int which);
+void engine_wait(engine *e);
+
+/* An image that shaders sample, with these bytes, in the layout SHADER_READ_ONLY. */
+host_image engine_upload(engine *e, VkFormat format, int width, int height,
+                         const void *bytes, size_t size);
+
+/* An image for a result; and its bytes, which the caller frees, once it is in
+ * TRANSFER_SRC_OPTIMAL. */
+host_image engine_result(engine *e, VkFormat format, int width, int height);
+void *engine_download(engine *e, const host_image *image, int width, int height,
+                      size_t size);
+
+#endif

@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: MIT */
+#include <cjson/cJSON.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "commands.h"
+
+typedef struct devices_settings {
+    common_settings common;
+    bool json;
+} devices_settings;
+
+static const arg devices_rows[] = {
+    {.name = "--json",
+     .type = ARG_FLAG,
+     .offset = offsetof(devices_settings, json),
+     .help = "write JSON"},
+};
+static const arg_table devices_table = ARG_TABLE("What to write", devices_rows);
+
+static const arg_table *const tables[] = {&devices_table, &args_output_lines, NULL};
+
+static const char *const examples[] = {
+    "what --device may name here",
+    "crevice devices",
+    NULL,
+};
+
+/* Instruction sets of the CPU, ", " between them. */
+static void list_sets(char *out, size_t size)
+{
+    const uint32_t mask = crv_isa_available();
+    size_t used = 0;
+
+    out[0] = '\0';
+    for (int i = CRV_ISA_SCALAR; crv_isa_name((crv_isa)i) != NULL && used < size; i++)
+        if (mask >> i & 1)
+            used += (size_t)snprintf(out + used, size - used, "%s%s", used ? ", " : "",
+                                     crv_isa_name((crv_isa)i));
+}
+
+static void print_device(int32_t index, const crv_device_info *info)
+{
+    char name[32];
+
+    snprintf(name, sizeof name, "vulkan:%d", index);
+    printf("%-10s %s (%s%s)\n", name, info->name, info->driver,
+           info->software ? "; a CPU" : "");
+    if (info->missing[0] != '\0')
+        printf("           cannot be used: %s\n", info->missing);
+}
+
+static void add_device(cJSON *list, int32_t index, const crv_device_info *info)
+{
+    cJSON *object = cJSON_CreateObject();
+    char name[32];
+
+    snprintf(name, sizeof name, "vulkan:%d", index);
+    cJSON_AddStringToObject(object, "device", name);
+    cJSON_AddStringToObject(object, "name", info->name);
+    cJSON_AddStringToObject(object, "driver", info->driver);
+    cJSON_AddBoolToObject(object, "software", info->software);
+    cJSON_AddStringToObject(object, "missing", info->missing);
+    cJSON_AddItemToArray(list, object);
+}
+
+/* Keeps the reason why there is no Vulkan: here it is no error. */
+static void keep_line(void *user, crv_log_level level, const char *line)
+{
+    if (level == CRV_LOG_ERROR)
+        snprintf(user, 512, "%s", line);
+}
+
+static int run(const void *settings, report *r)
+{
+    const devices_settings *s = settings;
+    char sets[128], why[512] = "";
+    const crv_logger logger = {.fn = keep_line, .user = why};
+    cJSON *root = cJSON_CreateObject();
+    cJSON *list = cJSON_AddArrayToObject(root, "vulkan");
+    crv_device_info info;
+    int32_t count = 0;
+    char *text;
+
+    list_sets(sets, sizeof sets);
+    if (!s->json)
+        printf("%-10s %s\n", "cpu", sets);
+    cJSON_AddStringToObject(root, "cpu", sets);
+    while (crv_vulkan_device_info(count, &info, &logger) == CRV_OK) {
+        if (!s->json)
+            print_device(count, &info);
+        add_device(list, count++, &info);
+    }
+    if (count == 0 && why[0] == '\0')
+        snprintf(why, sizeof why, "vulkan: there is no device; install a driver");
+    if (count == 0)
+        cJSON_AddStringToObject(root, "vulkan_missing", why);
+    if (count == 0 && !s->json)
+        printf("%s\n", why);
+    text = s->json ? cJSON_Print(root) : NULL;
+    cJSON_Delete(root);
+    if (s->json && text == NULL)
+        return report_no_memory(r);
+    if (text != NULL)
+        puts(text);
+    cJSON_free(text);
+    return EXIT_DONE;
+}
+
+const command command_devices = {
+    .name = "devices",
+    .summary = "the processors and GPUs that --device may name",
+    .synopsis = "[--json]",
+    .tables = tables,
+    .examples = examples,
+    .settings_size = sizeof(devices_settings),
+    .run = run,
+};
