@@ -59,22 +59,19 @@ static int find_layout(const io__exr *exr, int part, part_layout *layout)
     return 0;
 }
 
-static int chunk_info(const io__exr *exr, int part, const part_layout *layout,
-                      int32_t column, int32_t row, exr_chunk_info_t *info)
+static exr_result_t find_chunk(const io__exr *exr, int part, const part_layout *layout,
+                               int32_t column, int32_t row, exr_chunk_info_t *info)
 {
-    exr_result_t result;
     if (layout->tiled)
-        result = exr_read_tile_chunk_info(exr->context, part, column, row, 0, 0, info);
-    else
-        result = exr_read_scanline_chunk_info(
-            exr->context, part, layout->min_y + row * layout->chunk_height, info);
-    return result == EXR_ERR_SUCCESS ? 0 : damaged(exr);
+        return exr_read_tile_chunk_info(exr->context, part, column, row, 0, 0, info);
+    return exr_read_scanline_chunk_info(exr->context, part,
+                                        layout->min_y + row * layout->chunk_height, info);
 }
 
 /* OpenEXR itself would fill what an uncompressed file lacks with zeros. */
 int io__exr_check_part(io__exr *exr, int part)
 {
-    part_layout layout;
+    part_layout layout = {0};
     const uint64_t size = (uint64_t)exr->file->size;
     exr_compression_t compression = EXR_COMPRESSION_NONE;
     uint64_t packed = 0, unpacked = 0;
@@ -89,8 +86,8 @@ int io__exr_check_part(io__exr *exr, int part)
     for (int32_t row = 0; row < layout.rows; row++) {
         for (int32_t column = 0; column < layout.columns; column++) {
             exr_chunk_info_t info;
-            if (chunk_info(exr, part, &layout, column, row, &info))
-                return -1;
+            if (find_chunk(exr, part, &layout, column, row, &info) != EXR_ERR_SUCCESS)
+                return damaged(exr);
             if (info.data_offset > size || info.packed_size > size - info.data_offset) {
                 snprintf(exr->detail, sizeof exr->detail, "it ends in the middle");
                 return damaged(exr);
@@ -132,19 +129,22 @@ static float float_of_half(uint32_t half)
     return value;
 }
 
+/* Little-endian values, which is a copy for floats on most machines: the compiler sees it
+ * once the type is outside the loop. */
 static void unpack_line(const unsigned char *source, exr_pixel_type_t type, size_t width,
                         float *out)
 {
-    for (size_t i = 0; i < width; i++) {
-        if (type == EXR_PIXEL_HALF) {
+    if (type == EXR_PIXEL_HALF) {
+        for (size_t i = 0; i < width; i++)
             out[i] = float_of_half(load_bytes(source + 2 * i, 2));
-            continue;
-        }
-        const uint32_t bits = load_bytes(source + 4 * i, 4);
-        if (type == EXR_PIXEL_UINT)
-            out[i] = (float)bits;
-        else
+    } else if (type == EXR_PIXEL_UINT) {
+        for (size_t i = 0; i < width; i++)
+            out[i] = (float)load_bytes(source + 4 * i, 4);
+    } else {
+        for (size_t i = 0; i < width; i++) {
+            const uint32_t bits = load_bytes(source + 4 * i, 4);
             memcpy(&out[i], &bits, sizeof bits);
+        }
     }
 }
 
@@ -220,24 +220,59 @@ static exr_result_t read_chunk(io__exr *exr, int part, const part_layout *layout
     return code ? code : exr_decoding_run(exr->context, part, decode);
 }
 
+/* What the threads that unpack a part share. The first failure in the order of the chunks
+ * is the one that is told, whichever thread comes first. */
+typedef struct reading {
+    io__exr *exr;
+    int part;
+    part_layout layout;
+    float *const *targets;
+    int32_t
+        failed; /* the first chunk that did; the number of chunks while there is none */
+    exr_result_t code;
+} reading;
+
+static void read_chunk_number(reading *r, int32_t number, exr_decode_pipeline_t *decode)
+{
+    const part_layout *layout = &r->layout;
+    const int32_t column = number % layout->columns, row = number / layout->columns;
+    exr_chunk_info_t info;
+    destination to = {.targets = r->targets,
+                      .row_length = (size_t)layout->width,
+                      .x = column * layout->chunk_width,
+                      .y = row * layout->chunk_height,
+                      .min_y = layout->min_y};
+    exr_result_t code = find_chunk(r->exr, r->part, layout, column, row, &info);
+    if (!code)
+        code = read_chunk(r->exr, r->part, layout, &info, &to, decode);
+    if (!code)
+        return;
+    IO__OMP(critical(io__exr_failure))
+    if (number < r->failed) {
+        r->failed = number;
+        r->code = code;
+    }
+}
+
 int io__exr_read_part(io__exr *exr, int part, float *const *targets)
 {
-    exr_decode_pipeline_t decode = EXR_DECODE_PIPELINE_INITIALIZER;
-    part_layout layout;
-    exr_result_t code = EXR_ERR_SUCCESS;
-    int result = find_layout(exr, part, &layout);
-    for (int32_t row = 0; !code && !result && row < layout.rows; row++)
-        for (int32_t column = 0; !code && !result && column < layout.columns; column++) {
-            exr_chunk_info_t info;
-            destination to = {.targets = targets,
-                              .row_length = (size_t)layout.width,
-                              .x = column * layout.chunk_width,
-                              .y = row * layout.chunk_height,
-                              .min_y = layout.min_y};
-            result = chunk_info(exr, part, &layout, column, row, &info);
-            if (!result)
-                code = read_chunk(exr, part, &layout, &info, &to, &decode);
+    reading r = {.exr = exr, .part = part, .targets = targets};
+    if (find_layout(exr, part, &r.layout))
+        return -1;
+    const int32_t count = r.layout.columns * r.layout.rows;
+    r.failed = count;
+    IO__OMP(parallel)
+    {
+        exr_decode_pipeline_t decode = EXR_DECODE_PIPELINE_INITIALIZER;
+        IO__OMP_FOR(schedule(dynamic))
+        for (int32_t i = 0; i < count; i++) {
+            int32_t failed;
+            IO__OMP(atomic read)
+            failed = r.failed;
+            if (i < failed)
+                read_chunk_number(&r, i, &decode);
         }
-    exr_decoding_destroy(exr->context, &decode);
-    return code ? fail_decode(exr, code) : result;
+        exr_decoding_destroy(exr->context, &decode);
+    }
+    return r.code ? fail_decode(exr, r.code) : 0;
 }

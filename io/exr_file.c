@@ -19,6 +19,7 @@ static void keep_detail(exr_const_context_t context, exr_result_t code, const ch
     if (!context || exr_get_user_data(context, &user) != EXR_ERR_SUCCESS || !user)
         return;
     io__exr *exr = user;
+    IO__OMP(critical(io__exr_detail)) /* chunks are unpacked by several threads */
     snprintf(exr->detail, sizeof exr->detail, "%s", text ? text : "");
 }
 

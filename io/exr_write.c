@@ -110,29 +110,55 @@ static void aim(const writer *w, exr_encode_pipeline_t *encode, int32_t y)
     }
 }
 
+/* Packs the chunk that begins at row y of the picture. */
+static exr_result_t pack_chunk(const writer *w, int32_t y, exr_encode_pipeline_t *encode)
+{
+    exr_chunk_info_t info;
+    exr_result_t code =
+        exr_write_scanline_chunk_info(w->context, w->part, w->image->data_y + y, &info);
+    const bool first = !encode->channels;
+    if (!code)
+        code = first ? exr_encoding_initialize(w->context, w->part, &info, encode)
+                     : exr_encoding_update(w->context, w->part, &info, encode);
+    if (code)
+        return code;
+    aim(w, encode, y);
+    if (first)
+        code = exr_encoding_choose_default_routines(w->context, w->part, encode);
+    /* Writing waits for its turn: see write_pixels(). */
+    encode->yield_until_ready_fn = NULL;
+    encode->write_fn = NULL;
+    return code ? code : exr_encoding_run(w->context, w->part, encode);
+}
+
+/* A chunk that has been packed, to the file. */
+static exr_result_t write_chunk(const writer *w, exr_encode_pipeline_t *encode)
+{
+    return exr_write_scanline_chunk(w->context, w->part, encode->chunk.start_y,
+                                    encode->compressed_buffer, encode->compressed_bytes);
+}
+
+/* Chunks are packed by all threads and written in their order. */
 static exr_result_t write_pixels(const writer *w)
 {
-    exr_encode_pipeline_t encode = EXR_ENCODE_PIPELINE_INITIALIZER;
     int32_t lines = 1;
-    exr_result_t code = exr_get_scanlines_per_chunk(w->context, w->part, &lines);
-    for (int32_t y = 0; !code && y < w->image->height; y += lines) {
-        exr_chunk_info_t info;
-        code = exr_write_scanline_chunk_info(w->context, w->part, w->image->data_y + y,
-                                             &info);
-        if (code)
-            break;
-        code = y == 0 ? exr_encoding_initialize(w->context, w->part, &info, &encode)
-                      : exr_encoding_update(w->context, w->part, &info, &encode);
-        if (code)
-            break;
-        aim(w, &encode, y);
-        if (y == 0)
-            code = exr_encoding_choose_default_routines(w->context, w->part, &encode);
-        if (!code)
-            code = exr_encoding_run(w->context, w->part, &encode);
+    const exr_result_t known = exr_get_scanlines_per_chunk(w->context, w->part, &lines);
+    exr_result_t result = known;
+    if (known)
+        return known;
+    IO__OMP(parallel)
+    {
+        exr_encode_pipeline_t encode = EXR_ENCODE_PIPELINE_INITIALIZER;
+        IO__OMP_FOR(ordered schedule(dynamic))
+        for (int32_t y = 0; y < w->image->height; y += lines) {
+            const exr_result_t code = pack_chunk(w, y, &encode);
+            IO__OMP(ordered)
+            if (!result)
+                result = code ? code : write_chunk(w, &encode);
+        }
+        exr_encoding_destroy(w->context, &encode);
     }
-    exr_encoding_destroy(w->context, &encode);
-    return code;
+    return result;
 }
 
 static int check_names(const io__output *output, const io_image *image)

@@ -45,6 +45,16 @@ static int fill(const io__output *output, size_t room)
                : 0;
 }
 
+int io_check_room(const char *path, size_t room, const crv_logger *log)
+{
+    io__output output;
+    if (io__output_open(&output, path, log))
+        return -1;
+    int result = fill(&output, room);
+    io__output_discard(&output);
+    return result;
+}
+
 static int try_room(const char *path, size_t room, const crv_logger *log)
 {
     static const char name[] = "/.crevice-room";

@@ -97,4 +97,14 @@ int io__probe_colour(const io__file *file, int32_t width, int32_t height,
 int io__colour_channels(const io_image *image, int32_t index[3], const char *path,
                         const char *format, const crv_logger *log);
 
+/* A line of OpenMP, where it is built with that. */
+#ifdef _OPENMP
+#define IO__OMP_TEXT(...) _Pragma(#__VA_ARGS__)
+#define IO__OMP(...)      IO__OMP_TEXT(omp __VA_ARGS__)
+#define IO__OMP_FOR(...)  IO__OMP_TEXT(omp for __VA_ARGS__)
+#else
+#define IO__OMP(...)
+#define IO__OMP_FOR(...)
+#endif
+
 #endif

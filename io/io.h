@@ -89,6 +89,10 @@ int io_write(const char *path, const io_image *image, const io_write_options *op
  * path is not a folder. For finding out before a long computation. */
 int io_check_writable(const char *path, const crv_logger *log);
 
+/* Whether the disk holds `room` more bytes where `path` will be: writes them beside it
+ * and removes them again. */
+int io_check_room(const char *path, size_t room, const crv_logger *log);
+
 /* Writes `size` bytes under any name, in the way of io_write(): whole, or not at all. */
 int io_write_bytes(const char *path, const void *bytes, size_t size,
                    const crv_logger *log);

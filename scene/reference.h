@@ -86,7 +86,7 @@ const float *reference_falloff_error(const reference *r, crv_falloff falloff);
 
 /*
  * Checkpoints. reference_save() writes through a temporary file beside it and a rename,
- * always the same number of bytes, so that one success promises room for the next.
+ * always the same number of bytes: where one can take another's place, so can the next.
  * reference_load() refuses files that are damaged or of another scene, view or option.
  */
 int reference_save(reference *r, const char *path, const crv_logger *log);

@@ -30,7 +30,8 @@ ROOMS = {
 # core reads, and nothing else of methods and filters is. Kernels read a frame's planes and
 # the values of its options.
 EXTRA = {
-    "src/cpu/kernels": {"src/core/frame.h", "src/core/image.h",
+    "src/cpu/kernels": {"src/core/conversions.h", "src/core/frame.h",
+                        "src/core/image.h",
                         "include/crevice/options.h"},
     "src/core": {"src/methods/list.h", "src/filters/list.h"},
 }

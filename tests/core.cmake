@@ -10,4 +10,7 @@ crevice_test(test_options SOURCES test_options.c LIBS crevice_fixture)
 crevice_test(test_api SOURCES test_api.c LIBS crevice_fixture)
 crevice_test(test_camera SOURCES test_camera.c LIBS crevice_fixture)
 crevice_test(test_filters SOURCES test_filters.c LIBS crevice_fixture)
+crevice_test(test_rows SOURCES test_rows.c LIBS crevice_fixture)
 crevice_test(test_noise SOURCES test_noise.c LIBS crevice_internal)
+crevice_test(test_fast SOURCES test_fast.c fast_statement.c simd_case.c simd_run.c fixture.c
+    LIBS crevice_internal)

@@ -178,6 +178,7 @@ static crv_context *make_context(const fixture_run *run, crv_device device)
     if (device == CRV_DEVICE_VULKAN)
         desc.logger.fn = fail_on_other_error;
     desc.threads = run->threads;
+    desc.exact = run->exact;
     desc.parallel = run->parallel;
     desc.device = device;
     assert_int_equal(crv_context_create(&desc, &context), CRV_OK);

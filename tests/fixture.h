@@ -52,6 +52,7 @@ void fixture_free(fixture *f);
 /* What a run may vary beside the options. Zeroed: all defaults. */
 typedef struct fixture_run {
     int32_t threads;
+    int32_t exact; /* as in crv_context_desc */
     crv_parallel parallel;
     int32_t guard_left, guard_top, guard_right, guard_bottom;
     int32_t origin_x, origin_y;

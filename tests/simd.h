@@ -44,6 +44,7 @@ typedef struct simd_case {
     float *depth[CRV_MAX_LAYERS]; /* packed, desc.layers of them */
     float *normals;               /* packed; NULL: reconstructed */
     float *input;                 /* the accessibility to filter; NULL: run the method */
+    int32_t exact;                /* 0 or 1: as in crv_context_desc; made as 1 */
     uint64_t layout;              /* of strides and the order of tiles */
 } simd_case;
 

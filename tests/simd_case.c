@@ -244,6 +244,7 @@ simd_case *simd_case_make(simd_random *r, const crv_method *method,
     if (!c || crv_options_init(&c->options, sizeof c->options, method->name))
         return NULL;
     c->options.filter = filter;
+    c->exact = 1;
     c->layout = simd_bits(r);
     random_options(r, &c->options);
     crv_gbuffer_desc_init(&c->desc, sizeof c->desc, simd_int(r, 1, size),

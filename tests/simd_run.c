@@ -175,7 +175,7 @@ static crv_status session_begin(session *s, const simd_case *c, crv_isa isa, kee
     crv_context_desc desc;
     crv_context_desc_init(&desc, sizeof desc);
     desc.isa_mask = 1u << isa;
-    desc.exact = 1;
+    desc.exact = c->exact;
     desc.logger.fn = print_errors;
     desc.parallel.run = k ? run_shuffled : run_in_order;
     desc.parallel.user = k;

@@ -14,10 +14,46 @@ sound() {
 
 # A sphere is traced fast; every section once, all in one page.
 # shellcheck disable=SC2086 # $small is two options
-for section in methods missing hsao hbao alchemy vao closed-forms stability; do
+for section in methods missing structure hsao hbao alchemy vao closed-forms stability; do
     good report -o "page-$section" --only $section $small builtin:corner
     sound "page-$section"
 done
+
+# The plain code has one structure, so that fast and exact are one picture; the verdict is
+# that of the numbers.
+# shellcheck disable=SC2086
+good report -o plain --only structure --isa scalar $small builtin:corner
+if command -v python3 >/dev/null; then
+    for page in page-structure plain; do
+        python3 -c 'import json, sys
+report = json.load(open(sys.argv[1]))
+rows = report["structures"]
+assert len(rows) == 6, rows
+assert {(r["method"], r["filtered"]) for r in rows} == {
+    (m, f) for m in ("hbao", "alchemy", "vo") for f in (False, True)}, rows
+for row in rows:
+    assert row["rmse_exact"] > 0 and row["ms_fast"] > 0 and row["ms_exact"] > 0, row
+    assert row["holds"] == (row["rmse_fast"] <= 1.01 * row["rmse_exact"]), row
+    if sys.argv[1].startswith("plain"):
+        assert row["rmse_fast_to_exact"] == 0 and row["ratio"] == 1, row
+assert report["structures_hold"] == all(r["holds"] for r in rows), report
+' $page/report.json || fail "fast and exact structures in $page"
+    done
+fi
+
+# The tables of the documentation come from the same numbers, and the page has a place for
+# each of them.
+if command -v python3 >/dev/null; then
+    for section in methods stability; do
+        python3 "$tests/../docs/tables.py" --print page-$section/report.json >tables.txt ||
+            fail "no tables of the section $section"
+        grep -q '^| `hbao` |' tables.txt || fail "hbao in the tables of $section"
+    done
+    for part in $(sed -n 's/^    "\([a-z-]*\)": (.*/\1/p' "$tests/../docs/tables.py"); do
+        grep -q "^<!-- $part -->\$" "$tests/../docs/methods.md" || fail "no part $part"
+        grep -q "^<!-- end of $part -->\$" "$tests/../docs/methods.md" || fail "no end of $part"
+    done
+fi
 
 # Models are views under their names; the main one can be chosen; names do not clash.
 # shellcheck disable=SC2086

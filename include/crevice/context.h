@@ -96,7 +96,10 @@ typedef struct crv_plan crv_plan;
 
 /*
  * Checks the options, builds sample patterns and takes the memory that a run needs: 4
- * bytes for each pixel of the result, and as much again for the filter. Options and desc
+ * bytes for each pixel of the result, as much again for the filter, and as much again for
+ * each depth layer with 0.5 to 16 MiB of tables where sampling points may move (see
+ * crv_context_desc.exact); with the G-buffer's own, less than 48 bytes a pixel, 2 MiB of
+ * tables apart. Options and desc
  * are copied. *out must be destroyed before its context. Errors: INVALID_ARGUMENT,
  * OUT_OF_MEMORY.
  */

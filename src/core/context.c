@@ -13,6 +13,32 @@ void crv_context_desc_init(crv_context_desc *desc, size_t struct_size)
     desc->struct_size = struct_size;
 }
 
+enum { ROWS_A_TASK = 8 };
+
+typedef struct rows_job {
+    int32_t height;
+    void (*row)(void *data, uint32_t y);
+    void *data;
+} rows_job;
+
+static void run_row_group(void *data, uint32_t index)
+{
+    const rows_job *job = data;
+    const int32_t first = (int32_t)index * ROWS_A_TASK;
+    const int32_t end =
+        job->height - first < ROWS_A_TASK ? job->height : first + ROWS_A_TASK;
+    for (int32_t y = first; y < end; y++)
+        job->row(job->data, (uint32_t)y);
+}
+
+void crv__run_rows(const crv_context *context, int32_t height,
+                   void (*row)(void *data, uint32_t y), void *data)
+{
+    rows_job job = {height, row, data};
+    crv__run_parallel(context, (uint32_t)((height - 1) / ROWS_A_TASK + 1), run_row_group,
+                      &job);
+}
+
 crv_status crv__context_create_bare(const crv_context_desc *desc, crv_context **out)
 {
     crv_context_desc defaults;

@@ -26,4 +26,9 @@ static inline void crv__run_parallel(const crv_context *context, uint32_t count,
     crv__parallel_for(&context->parallel, context->threads, count, task, data);
 }
 
+/* The same for rows 0 to height - 1 of a picture, with groups of them as tasks, so that
+ * fetching one costs little even where a row takes a microsecond. */
+void crv__run_rows(const crv_context *context, int32_t height,
+                   void (*row)(void *data, uint32_t y), void *data);
+
 #endif

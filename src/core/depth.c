@@ -58,14 +58,24 @@ float crv__depth_map_apply(const crv__depth_map *map, int32_t x, int32_t y, floa
     return d > 0 && d < INFINITY ? d : INFINITY; /* NaN fails both */
 }
 
+/* The specification of crv__conversions.depth_row. */
+static void depth_row(const crv__depth_map *map, const float *from, ptrdiff_t stride,
+                      int32_t y, int32_t count, float *out)
+{
+    for (int32_t x = 0; x < count; x++)
+        out[x] = crv__depth_map_apply(map, x, y, from[x * stride]);
+}
+
 static void convert_row(void *data, uint32_t row)
 {
     const depth_job *job = data;
     const int32_t y = (int32_t)row;
     float *out = crv__plane_at(&job->gbuffer->depth[job->layer], 0, y);
-    for (int32_t x = 0; x < job->gbuffer->desc.width; x++)
-        out[x] =
-            crv__depth_map_apply(&job->map, x, y, *crv_image_at(job->image, x, y, 0));
+    const crv__conversions *kernels = crv__cpu_conversions(job->gbuffer->context);
+    (kernels ? kernels->depth_row
+             : depth_row)(&job->map, crv_image_at(job->image, 0, y, 0),
+                          job->image->pixel_stride / (ptrdiff_t)sizeof(float), y,
+                          job->gbuffer->desc.width, out);
 }
 
 /* The affine map of a hardware depth. Standard: v = 0 at near, 1 at far; reversed: 1 - v.
@@ -145,7 +155,7 @@ crv_status crv_gbuffer_set_depth(crv_gbuffer *g, int32_t layer, const crv_image 
     status = crv__depth_map_init(&job.map, logger, &g->camera, format);
     if (status)
         return status;
-    crv__run_parallel(g->context, (uint32_t)g->desc.height, convert_row, &job);
+    crv__run_rows(g->context, g->desc.height, convert_row, &job);
     g->has_depth |= 1u << layer;
     if (layer == 0)
         g->normals_ready = 0; /* those made from the depth before are out of date */

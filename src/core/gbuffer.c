@@ -167,7 +167,7 @@ crv_status crv_gbuffer_set_normals(crv_gbuffer *g, const crv_image *image,
         memcpy(job.rotation,
                space == CRV_NORMAL_WORLD ? g->camera.world_to_view : IDENTITY,
                sizeof job.rotation);
-        crv__run_parallel(g->context, (uint32_t)g->desc.height, take_normals_row, &job);
+        crv__run_rows(g->context, g->desc.height, take_normals_row, &job);
     }
     g->has_normals = image != NULL;
     g->normals_ready = 0;
@@ -199,7 +199,9 @@ static void finish_row(void *data, uint32_t row)
     crv_gbuffer *g = data;
     crv__params params = {0};
     crv__gbuffer_params(g, &params);
-    crv__normals_finish_row(g, &params, (int32_t)row);
+    const crv__conversions *kernels = crv__cpu_conversions(g->context);
+    (kernels ? kernels->normals_row : crv__normals_row)(&params, &g->depth[0], g->normal,
+                                                        g->has_normals, (int32_t)row);
 }
 
 crv_status crv__gbuffer_prepare(crv_gbuffer *g)
@@ -215,7 +217,7 @@ crv_status crv__gbuffer_prepare(crv_gbuffer *g)
             "call crv_gbuffer_set_depth() after the camera",
             missing);
     if (!g->normals_ready) {
-        crv__run_parallel(g->context, (uint32_t)g->desc.height, finish_row, g);
+        crv__run_rows(g->context, g->desc.height, finish_row, g);
         g->normals_ready = 1;
         g->relief_ready = 0;
     }

@@ -3,6 +3,7 @@
 #define CRV_CORE_GBUFFER_H
 
 #include "core/context.h"
+#include "core/conversions.h"
 #include "core/field.h"
 #include "core/image.h"
 #include "crevice/gbuffer.h"
@@ -22,17 +23,6 @@ struct crv_gbuffer {
     int32_t relief_ready; /* field.relief_normal[] belongs to field and normal[] */
     crv__field field;     /* its planes live as long as the G-buffer */
 };
-
-/*
- * What turns the numbers of a depth image into planar depth (depth.c). A hardware depth v
- * in [0, 1] is affine in 1/d (perspective) or in d (orthographic): d = 1 / (a + b v) or
- * d = a + b v.
- */
-typedef struct crv__depth_map {
-    const crv_camera *camera;
-    crv_depth_format format;
-    double a, b;
-} crv__depth_map;
 
 /* format NULL: planar. INVALID_ARGUMENT with a line where it makes no sense. */
 crv_status crv__depth_map_init(crv__depth_map *map, const crv_logger *logger,
@@ -61,8 +51,8 @@ void crv__gbuffer_params(const crv_gbuffer *gbuffer, crv__params *params);
 void crv__height_field_finish(crv_gbuffer *gbuffer);
 void crv__height_field_release(crv_gbuffer *gbuffer);
 
-/* Turns row y of normal[] into unit normals that face the camera, reconstructed from
- * depth where there are none (normals.c). */
-void crv__normals_finish_row(crv_gbuffer *gbuffer, const crv__params *params, int32_t y);
+/* The specification of crv__conversions.normals_row (normals.c). */
+void crv__normals_row(const crv__params *params, const crv__plane *depth,
+                      const crv__plane *normal, int32_t has_normals, int32_t y);
 
 #endif

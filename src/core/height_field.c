@@ -164,5 +164,5 @@ static void finish_row(void *data, uint32_t row)
 void crv__height_field_finish(crv_gbuffer *g)
 {
     if (g->has_field && !g->field.implicit)
-        crv__run_parallel(g->context, (uint32_t)g->desc.height, finish_row, g);
+        crv__run_rows(g->context, g->desc.height, finish_row, g);
 }

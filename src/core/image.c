@@ -87,7 +87,9 @@ int crv__plane_create(crv__plane *plane, const crv_allocator *allocator, int32_t
                       int32_t y0, int32_t width, int32_t height)
 {
     const ptrdiff_t unit = CRV__ALIGNMENT / (ptrdiff_t)sizeof(float);
-    ptrdiff_t pitch = (width + unit - 1) / unit * unit;
+    /* An odd number of cache lines: rows of a power of two would fall on the same few
+     * sets of the cache, and those of a window would drive each other out. */
+    const ptrdiff_t pitch = ((width + unit - 1) / unit | 1) * unit;
     float *data = crv__allocate(allocator, (size_t)height, (size_t)pitch * sizeof(float));
     if (!data)
         return -1;

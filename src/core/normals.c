@@ -83,20 +83,21 @@ static crv__vec3 face_camera(const crv__params *p, const crv__plane *depth, int3
     return crv__dot(bent, view) > 0 ? bent : view;
 }
 
-void crv__normals_finish_row(crv_gbuffer *g, const crv__params *p, int32_t y)
+void crv__normals_row(const crv__params *p, const crv__plane *depth,
+                      const crv__plane *normal, int32_t has_normals, int32_t y)
 {
     for (int32_t x = 0; x < p->width; x++) {
-        float *const out[3] = {crv__plane_at(&g->normal[0], x, y),
-                               crv__plane_at(&g->normal[1], x, y),
-                               crv__plane_at(&g->normal[2], x, y)};
-        const float d = *crv__plane_at(&g->depth[0], x, y);
+        float *const out[3] = {crv__plane_at(&normal[0], x, y),
+                               crv__plane_at(&normal[1], x, y),
+                               crv__plane_at(&normal[2], x, y)};
+        const float d = *crv__plane_at(depth, x, y);
         crv__vec3 n = {0, 0, 0};
         if (d < INFINITY) {
-            if (g->has_normals)
+            if (has_normals)
                 n = normalized((crv__vec3){*out[0], *out[1], *out[2]});
             if (crv__dot(n, n) == 0)
-                n = from_depth(p, &g->depth[0], x, y, d);
-            n = face_camera(p, &g->depth[0], x, y, d, n);
+                n = from_depth(p, depth, x, y, d);
+            n = face_camera(p, depth, x, y, d, n);
         }
         *out[0] = n.x;
         *out[1] = n.y;

@@ -186,6 +186,49 @@ static void turn_apart(float *points, int32_t count, int32_t stride, int paired)
     }
 }
 
+/* The distance of two points, to both images of the second where `paired`. */
+static double apart(const float *a, const float *b, int paired)
+{
+    const double dx = (double)a[0] - (double)b[0], dy = (double)a[1] - (double)b[1];
+    const double sx = (double)a[0] + (double)b[0], sy = (double)a[1] + (double)b[1];
+    const double own = sqrt(dx * dx + dy * dy);
+    return paired ? 0.5 * (own + sqrt(sx * sx + sy * sy)) : own;
+}
+
+/*
+ * Levels of detail take prefixes. The next point is always the one that brings the energy
+ * distance (Szekely, Rizzo 2013) of those so far to the whole set down to its least: that
+ * distance is the mean square, over all half-planes, of the difference between their
+ * shares of the two, and a half-plane is what a wall leaves of the disk.
+ */
+static void order_for_prefixes(float *points, int32_t count, int32_t stride, int paired)
+{
+    double all[MOST_CANDIDATES] = {0}, taken[MOST_CANDIDATES] = {0};
+    for (int32_t i = 0; i < count; i++) {
+        for (int32_t k = 0; k < count; k++)
+            all[i] += apart(points + (ptrdiff_t)4 * i * stride,
+                            points + (ptrdiff_t)4 * k * stride, paired);
+    }
+    for (int32_t i = 0; i < count; i++) {
+        /* The two sums of the energy distance that the choice changes. */
+        int32_t best = i;
+        for (int32_t k = i + 1; k < count; k++) {
+            if (all[k] / count - taken[k] / (i + 1)
+                < all[best] / count - taken[best] / (i + 1))
+                best = k;
+        }
+        float *here = points + (ptrdiff_t)4 * i * stride, moved[4];
+        float *there = points + (ptrdiff_t)4 * best * stride;
+        memcpy(moved, here, sizeof moved);
+        memmove(here, there, sizeof moved);
+        memcpy(there, moved, sizeof moved);
+        all[best] = all[i];
+        taken[best] = taken[i];
+        for (int32_t k = i + 1; k < count; k++)
+            taken[k] += apart(here, points + (ptrdiff_t)4 * k * stride, paired);
+    }
+}
+
 /* The i-th point of the same recurrence in the unit square, on the powers of the plastic
  * number: of all such sequences the one whose points keep the largest distance. */
 static void square_point(int32_t i, int32_t seed, double out[2])
@@ -208,6 +251,7 @@ static void disk_points(float *points, int32_t count, int32_t stride, int paired
         relax(points, count, stride, paired);
         equalise_radii(points, count, stride, taken);
         turn_apart(points, count, stride, paired);
+        order_for_prefixes(points, count, stride, paired);
         return;
     }
     for (int32_t i = 0; i < count; i++) {

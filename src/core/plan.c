@@ -289,7 +289,7 @@ static crv_status finish(crv_plan *plan, const crv__frame *frame, int filter_onl
     crv_status status =
         plan->context->backend->run(&work, filter_only, plan->planes, &job.from);
     if (status == CRV_OK)
-        crv__run_parallel(plan->context, (uint32_t)result->height, copy_row, &job);
+        crv__run_rows(plan->context, result->height, copy_row, &job);
     return status;
 }
 
@@ -298,6 +298,33 @@ crv_status crv_plan_run(crv_plan *plan, crv_gbuffer *gbuffer, const crv_image *r
     crv__frame frame;
     crv_status status = begin(plan, gbuffer, result, &frame);
     return status ? status : finish(plan, &frame, 0, result);
+}
+
+typedef struct take_job {
+    const crv_plan *plan;
+    const crv_image *from;
+    const crv__plane *to;
+} take_job;
+
+/* A row of the estimate's plane. Outside the given image its margin holds nothing: NaN,
+ * which filters leave out. */
+static void take_row(void *data, uint32_t index)
+{
+    const take_job *job = data;
+    const crv_gbuffer_desc *d = &job->plan->setup.desc;
+    const int32_t y = job->to->y0 + (int32_t)index;
+    float *row = crv__plane_at(job->to, job->to->x0, y);
+    const int holds = y >= d->guard_top && y < d->guard_top + job->from->height;
+    const int32_t left = holds ? d->guard_left - job->to->x0 : job->to->width;
+    const int32_t count = holds ? job->from->width : 0;
+    for (int32_t x = 0; x < left; x++)
+        row[x] = NAN;
+    const ptrdiff_t stride = job->from->pixel_stride / (ptrdiff_t)sizeof(float);
+    const float *from = holds ? crv_image_at(job->from, 0, y - d->guard_top, 0) : NULL;
+    for (int32_t x = 0; x < count; x++)
+        row[left + x] = fabsf(from[x * stride]) < INFINITY ? from[x * stride] : 1;
+    for (int32_t x = left + count; x < job->to->width; x++)
+        row[x] = NAN;
 }
 
 crv_status crv_plan_filter(crv_plan *plan, crv_gbuffer *gbuffer, const crv_image *input,
@@ -309,20 +336,7 @@ crv_status crv_plan_filter(crv_plan *plan, crv_gbuffer *gbuffer, const crv_image
         status = check_image(plan, "input", input, 0);
     if (status)
         return status;
-    /* Outside the given image the estimate's margin holds nothing: NaN, which filters
-     * leave out. */
-    const crv__plane *estimate = &plan->planes[0];
-    for (int32_t y = 0; y < estimate->height; y++) {
-        for (int32_t x = 0; x < estimate->width; x++)
-            estimate->data[y * estimate->pitch + x] = NAN;
-    }
-    for (int32_t y = 0; y < input->height; y++) {
-        float *row = crv__plane_at(estimate, plan->setup.desc.guard_left,
-                                   plan->setup.desc.guard_top + y);
-        for (int32_t x = 0; x < input->width; x++) {
-            const float a = *crv_image_at(input, x, y, 0);
-            row[x] = isfinite(a) ? a : 1;
-        }
-    }
+    take_job job = {plan, input, &plan->planes[0]};
+    crv__run_rows(plan->context, job.to->height, take_row, &job);
     return finish(plan, &frame, 1, result);
 }

@@ -3,13 +3,13 @@
  * the best instruction set, or pixel by pixel with the specification.
  */
 #include "core/backend.h"
-#include "cpu/isa.h"
+#include "cpu/fast.h"
 
 #include <math.h>
 
 /* Tiles are small enough that a picture gives every thread many, and wide enough that
  * rows of depth are read along the cache line. */
-enum { TILE_WIDTH = 128, TILE_HEIGHT = 16 };
+enum { TILE_WIDTH = 128, TILE_HEIGHT = 16, FAST_TILE_GROUPS = 4, FAST_TILE_HEIGHT = 32 };
 
 typedef struct tiles {
     const crv__work *work;
@@ -17,6 +17,8 @@ typedef struct tiles {
     const crv__filter *filter;
     crv__estimate_kernel estimate_kernel; /* NULL: the specification */
     crv__filter_kernel filter_kernel;
+    crv__fast_kernel fast_kernel; /* with fast: for groups rather than tiles of pixels */
+    const crv__fast *fast;
     int32_t pass;
     const crv__plane *input, *out;
     int32_t columns;
@@ -52,10 +54,6 @@ static void estimate_row(const tiles *t, int32_t x0, int32_t x1, int32_t y, floa
 static void filter_row(const tiles *t, int32_t x0, int32_t x1, int32_t y, float *out)
 {
     const crv__frame *frame = t->work->frame;
-    if (t->filter_kernel) {
-        t->filter_kernel(frame, t->input, t->pass, x0, x1, y, out);
-        return;
-    }
     for (int32_t x = x0; x < x1; x++) {
         const float own = *crv__plane_at(t->input, x, y);
         if (is_background(t, x, y))
@@ -98,25 +96,90 @@ static const crv__kernels *kernels_for(const crv__work *work)
     return crv__kernels_best(work->setup->context->isa_mask);
 }
 
+/* The pixels of a row whose radius is beyond the fast structure's table. */
+static void mend_row(const tiles *t, int32_t x0, int32_t x1, int32_t y, float *out)
+{
+    float exact[CRV__FAST_SPAN];
+    for (int32_t x = x0; x < x1; x += CRV__FAST_SPAN) {
+        const int32_t end = x + CRV__FAST_SPAN < x1 ? x + CRV__FAST_SPAN : x1;
+        const float *depth = crv__plane_at(&t->work->frame->depth[0], x, y);
+        estimate_row(t, x, end, y, exact);
+        for (int32_t i = 0; i < end - x; i++) {
+            if (crv__fast_is_beyond(t->fast, t->work->frame->params, depth[i]))
+                out[x - x0 + i] = exact[i];
+        }
+    }
+}
+
+/* A tile of groups: rows of the same phase after another, which share their lists. */
+static void run_fast_tile(void *data, uint32_t index)
+{
+    const tiles *t = data;
+    const crv__plane *out = t->out;
+    const crv__params *p = t->work->frame->params;
+    const int32_t left = (out->x0 + t->fast->left) / CRV__FAST_SPAN;
+    const int32_t end =
+        (out->x0 + out->width + t->fast->left + CRV__FAST_SPAN - 1) / CRV__FAST_SPAN;
+    const int32_t first =
+        left + (int32_t)(index % (uint32_t)t->columns) * FAST_TILE_GROUPS;
+    const int32_t last = first + FAST_TILE_GROUPS < end ? first + FAST_TILE_GROUPS : end;
+    const int32_t y0 =
+        out->y0 + (int32_t)(index / (uint32_t)t->columns) * FAST_TILE_HEIGHT;
+    const int32_t bottom = out->y0 + out->height;
+    const int32_t y1 = y0 + FAST_TILE_HEIGHT < bottom ? y0 + FAST_TILE_HEIGHT : bottom;
+    const int32_t from = first * CRV__FAST_SPAN - t->fast->left;
+    const int32_t to = last * CRV__FAST_SPAN - t->fast->left;
+    const int32_t x0 = from > out->x0 ? from : out->x0;
+    const int32_t x1 = to < out->x0 + out->width ? to : out->x0 + out->width;
+    for (int32_t i = 0; i < CRV__FAST_PHASES; i++) {
+        for (int32_t y = y0 + i; y < y1; y += CRV__FAST_PHASES) {
+            float *row = crv__plane_at(out, x0, y);
+            const int beyond =
+                t->fast_kernel(t->work->frame, t->fast, y, first, last, x0, x1 - x0, row);
+            for (int32_t x = 0; x < x1 - x0 && p->contrast != 1; x++)
+                row[x] = powf(row[x], p->contrast);
+            if (beyond)
+                mend_row(t, x0, x1, y, row);
+        }
+    }
+}
+
+static void run_fast_tiles(tiles *t)
+{
+    const crv__plane *out = t->out;
+    const int32_t left = (out->x0 + t->fast->left) / CRV__FAST_SPAN;
+    const int32_t end =
+        (out->x0 + out->width + t->fast->left + CRV__FAST_SPAN - 1) / CRV__FAST_SPAN;
+    t->columns = (end - left + FAST_TILE_GROUPS - 1) / FAST_TILE_GROUPS;
+    const int32_t rows = (out->height + FAST_TILE_HEIGHT - 1) / FAST_TILE_HEIGHT;
+    crv__run_parallel(t->work->setup->context, (uint32_t)t->columns * (uint32_t)rows,
+                      run_fast_tile, t);
+}
+
 static void estimate(const crv__work *work, const crv__plane *out)
 {
     const crv__method *method = work->setup->method;
+    crv__fast_state *fast = work->frame->params->use_field ? NULL : work->state;
     tiles t = {.work = work,
                .method = method,
                .estimate_kernel =
                    crv__kernels_estimate(kernels_for(work), method->info.name),
                .out = out,
                .row = estimate_row};
-    run_tiles(&t);
+    if (fast) {
+        t.fast = crv__fast_prepare(fast, work->setup, work->frame);
+        t.fast_kernel = crv__fast_kernel_of(fast);
+        run_fast_tiles(&t);
+    } else {
+        run_tiles(&t);
+    }
 }
 
 static void filter_pass(const crv__work *work, int32_t pass, const crv__plane *input,
                         const crv__plane *out)
 {
-    const crv__filter *filter = work->setup->filter;
     tiles t = {.work = work,
-               .filter = filter,
-               .filter_kernel = crv__kernels_filter(kernels_for(work), filter->info.name),
+               .filter = work->setup->filter,
                .pass = pass,
                .input = input,
                .out = out,
@@ -124,27 +187,75 @@ static void filter_pass(const crv__work *work, int32_t pass, const crv__plane *i
     run_tiles(&t);
 }
 
+static void run_filter_tile(void *data, uint32_t index)
+{
+    const tiles *t = data;
+    const crv__plane *out = t->out;
+    const int32_t x0 =
+        out->x0 + (int32_t)(index % (uint32_t)t->columns) * CRV__FILTER_TILE_WIDTH;
+    const int32_t y0 =
+        out->y0 + (int32_t)(index / (uint32_t)t->columns) * CRV__FILTER_TILE_HEIGHT;
+    const int32_t right = out->x0 + out->width, bottom = out->y0 + out->height;
+    const int32_t x1 = x0 + CRV__FILTER_TILE_WIDTH, y1 = y0 + CRV__FILTER_TILE_HEIGHT;
+    const crv__tile tile = {x0, x1 < right ? x1 : right, y0, y1 < bottom ? y1 : bottom};
+    t->filter_kernel(t->work->frame, t->input, out, tile);
+}
+
+/* All passes at once, from planes[0] to planes[1]. What the host gives to be filtered
+ * alone has nothing beyond the guard band: the kernel is not shown that part. */
+static void filter_with(const crv__work *work, crv__filter_kernel kernel, int filter_only,
+                        const crv__plane planes[2])
+{
+    const crv_gbuffer_desc *d = &work->setup->desc;
+    crv__plane shown[2] = {planes[0], planes[1]};
+    for (int i = 0; i < 2 && filter_only; i++) {
+        crv__plane *p = &shown[i];
+        p->data = crv__plane_at(p, d->guard_left, d->guard_top);
+        p->x0 = d->guard_left;
+        p->y0 = d->guard_top;
+        p->width = d->width - d->guard_left - d->guard_right;
+        p->height = d->height - d->guard_top - d->guard_bottom;
+    }
+    tiles t = {
+        .work = work, .filter_kernel = kernel, .input = &shown[0], .out = &shown[1]};
+    t.columns = (t.out->width + CRV__FILTER_TILE_WIDTH - 1) / CRV__FILTER_TILE_WIDTH;
+    const int32_t rows =
+        (t.out->height + CRV__FILTER_TILE_HEIGHT - 1) / CRV__FILTER_TILE_HEIGHT;
+    crv__run_parallel(work->setup->context, (uint32_t)t.columns * (uint32_t)rows,
+                      run_filter_tile, &t);
+}
+
 static crv_status plan_create(const crv__setup *setup, const crv__plane *rectangle,
                               void **state)
 {
-    (void)setup;
-    (void)rectangle;
-    (void)state;
-    return CRV_OK;
+    crv__fast_state *fast;
+    const crv_status status = crv__fast_create(setup, &fast);
+    *state = fast;
+    return status
+               ? crv__fail(&setup->context->logger, status, "plan: no memory for %d x %d",
+                           rectangle->width, rectangle->height)
+               : CRV_OK;
 }
 
 static void plan_destroy(const crv__setup *setup, void *state)
 {
-    (void)setup;
-    (void)state;
+    crv__fast_destroy(setup, state);
 }
 
 static crv_status run(const crv__work *work, int filter_only, const crv__plane planes[2],
                       const crv__plane **result)
 {
-    const int32_t passes = work->setup->filter ? work->setup->filter->passes : 0;
+    const crv__filter *filter = work->setup->filter;
+    const crv__filter_kernel kernel =
+        filter ? crv__kernels_filter(kernels_for(work), filter->info.name) : NULL;
+    const int32_t passes = filter && !kernel ? filter->passes : 0;
     if (!filter_only)
         estimate(work, &planes[0]);
+    if (kernel) {
+        filter_with(work, kernel, filter_only, planes);
+        *result = &planes[1];
+        return CRV_OK;
+    }
     for (int32_t pass = 0; pass < passes; pass++)
         filter_pass(work, pass, &planes[pass % 2], &planes[(pass + 1) % 2]);
     *result = &planes[passes % 2];

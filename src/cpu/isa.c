@@ -87,6 +87,12 @@ const crv__kernels *crv__kernels_best(uint32_t allowed)
     return best(allowed)->kernels;
 }
 
+const crv__conversions *crv__cpu_conversions(const crv_context *context)
+{
+    const crv__kernels *kernels = crv__kernels_best(context->isa_mask);
+    return kernels ? &kernels->conversions : NULL;
+}
+
 crv__estimate_kernel crv__kernels_estimate(const crv__kernels *kernels, const char *name)
 {
     for (const crv__named_estimate *e = kernels ? kernels->estimates : NULL; e && e->name;
@@ -103,6 +109,15 @@ crv__filter_kernel crv__kernels_filter(const crv__kernels *kernels, const char *
          e++) {
         if (strcmp(e->name, name) == 0)
             return e->run;
+    }
+    return NULL;
+}
+
+const crv__fast_kind *crv__kernels_fast(const crv__kernels *kernels, const char *name)
+{
+    for (const crv__fast_kind *e = kernels ? kernels->fast : NULL; e && e->name; e++) {
+        if (strcmp(e->name, name) == 0)
+            return e;
     }
     return NULL;
 }

@@ -45,34 +45,6 @@ static int check(const view_settings *s, report *r)
     return output_check(s->output, s->model, r);
 }
 
-static int make_image(const scene_gbuffer *g, io_image *image, report *r)
-{
-    static const char *const surfaces[] = {"N.X",      "N.Y",      "N.Z",     "Z",
-                                           "layer2.Z", "layer3.Z", "layer4.Z"};
-    static const char *const solids[] = {"N.X",      "N.Y",      "N.Z",     "Z",
-                                         "solid2.Z", "solid3.Z", "solid4.Z"};
-    const char *const *names = g->desc.layer_kind == CRV_LAYERS_SOLID ? solids : surfaces;
-    size_t count = (size_t)g->desc.width * (size_t)g->desc.height;
-    float *normals[3];
-
-    if (io_image_init(image, g->desc.width, g->desc.height, names, 3 + g->desc.layers,
-                      &r->logger)
-        != 0)
-        return EXIT_FAILED;
-    for (int k = 0; k < 3; k++)
-        normals[k] = io_image_find(image, names[k])->data;
-    gbuffer_world_normals(g, normals);
-    for (int32_t layer = 0; layer < g->desc.layers; layer++)
-        memcpy(io_image_find(image, names[3 + layer])->data, g->depth[layer],
-               count * sizeof(float));
-    image->data_x = -g->desc.guard_left;
-    image->data_y = -g->desc.guard_top;
-    image->display_width = g->desc.width - g->desc.guard_left - g->desc.guard_right;
-    image->display_height = g->desc.height - g->desc.guard_top - g->desc.guard_bottom;
-    gbuffer_describe_camera(g, image);
-    return EXIT_DONE;
-}
-
 static int run(const void *settings, report *r)
 {
     const view_settings *s = settings;
@@ -87,7 +59,8 @@ static int run(const void *settings, report *r)
         result = view_render(s, model, false, &g, r);
     scene_free(model);
     if (result == EXIT_DONE)
-        result = make_image(&g, &image, r);
+        result =
+            gbuffer_make_image(&g, &image, &r->logger) == 0 ? EXIT_DONE : EXIT_FAILED;
     scene_gbuffer_free(&g);
     if (result == EXIT_DONE)
         result = output_write(s->output, &image, NULL, r);

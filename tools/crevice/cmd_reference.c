@@ -275,7 +275,8 @@ static int trace(const reference_settings *s, const scene *model, const scene_gb
 
     if (reference_create(model, g, &o, &run->work, &r->logger) != 0)
         return EXIT_FAILED;
-    result = reference_run_all(run, s->resume, s->view.common.threads.value, r);
+    result = reference_run_all(run, s->view.output, s->resume,
+                               s->view.common.threads.value, r);
     if (result != EXIT_DONE)
         return result;
     report_info(r, "reference, radius %g, up to %d rays: %.2f s", (double)o.radius,

@@ -28,10 +28,11 @@ static const struct {
     int (*run)(study *s);
     bool is_small;
 } sections[] = {
-    {"methods", study_methods, false},          {"missing", study_missing, false},
-    {"hsao", study_claims_hsao, true},          {"hbao", study_claims_hbao, true},
-    {"alchemy", study_claims_alchemy, true},    {"vao", study_claims_vao, true},
-    {"closed-forms", study_closed_forms, true}, {"stability", study_stability, true},
+    {"methods", study_methods, false},     {"missing", study_missing, false},
+    {"structure", study_structure, false}, {"hsao", study_claims_hsao, true},
+    {"hbao", study_claims_hbao, true},     {"alchemy", study_claims_alchemy, true},
+    {"vao", study_claims_vao, true},       {"closed-forms", study_closed_forms, true},
+    {"stability", study_stability, true},
 };
 enum { SECTION_COUNT = sizeof sections / sizeof sections[0] };
 enum { SMALL_PIXELS = 640 * 360 };
@@ -73,8 +74,8 @@ static const arg study_rows[] = {
      .type = ARG_TEXTS,
      .offset = offsetof(report_settings, only),
      .computed = "all",
-     .help = "methods|missing|hsao|hbao|alchemy|vao|closed-forms|stability; may be given "
-             "again"},
+     .help = "methods, missing, structure, hsao, hbao, alchemy, vao, closed-forms or "
+             "stability; may be given again"},
     {.name = "--size",
      .value = "WxH",
      .type = ARG_SIZE,

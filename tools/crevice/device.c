@@ -78,6 +78,12 @@ static int choose_device(const common_settings *common, crv_context_desc *desc, 
 int device_context(const common_settings *common, const crv_logger *logger, report *r,
                    crv_context **out)
 {
+    return device_context_in(common, logger, NULL, r, out);
+}
+
+int device_context_in(const common_settings *common, const crv_logger *logger,
+                      const crv_allocator *allocator, report *r, crv_context **out)
+{
     const uint32_t available = crv_isa_available();
     crv_context_desc desc;
 
@@ -85,6 +91,8 @@ int device_context(const common_settings *common, const crv_logger *logger, repo
     desc.logger = *logger;
     desc.threads = common->threads.value;
     desc.exact = common->exact;
+    if (allocator != NULL)
+        desc.allocator = *allocator;
     if (choose_device(common, &desc, r) != EXIT_DONE)
         return EXIT_USAGE;
     if (common->isa.value > 0) {

@@ -10,4 +10,8 @@
 int device_context(const common_settings *common, const crv_logger *logger, report *r,
                    crv_context **out);
 
+/* The same with memory from this allocator; NULL: the C library's. */
+int device_context_in(const common_settings *common, const crv_logger *logger,
+                      const crv_allocator *allocator, report *r, crv_context **out);
+
 #endif

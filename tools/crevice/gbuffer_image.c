@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "gbuffer_image.h"
 
+#include <string.h>
+
 /* Row-vector matrices: p' = p * M, so M is the transpose of the matrix for column
  * vectors. */
 void gbuffer_describe_camera(const scene_gbuffer *g, io_image *image)
@@ -47,4 +49,32 @@ void gbuffer_world_normals(const scene_gbuffer *g, float *const out[3])
         for (int k = 0; k < 3; k++)
             out[k][i] = m[k] * n[0] + m[3 + k] * n[1] + m[6 + k] * n[2];
     }
+}
+
+int gbuffer_make_image(const scene_gbuffer *g, io_image *image, const crv_logger *log)
+{
+    static const char *const surfaces[] = {"N.X",      "N.Y",      "N.Z",     "Z",
+                                           "layer2.Z", "layer3.Z", "layer4.Z"};
+    static const char *const solids[] = {"N.X",      "N.Y",      "N.Z",     "Z",
+                                         "solid2.Z", "solid3.Z", "solid4.Z"};
+    const char *const *names = g->desc.layer_kind == CRV_LAYERS_SOLID ? solids : surfaces;
+    size_t count = (size_t)g->desc.width * (size_t)g->desc.height;
+    float *normals[3];
+
+    if (io_image_init(image, g->desc.width, g->desc.height, names, 3 + g->desc.layers,
+                      log)
+        != 0)
+        return -1;
+    for (int k = 0; k < 3; k++)
+        normals[k] = io_image_find(image, names[k])->data;
+    gbuffer_world_normals(g, normals);
+    for (int32_t layer = 0; layer < g->desc.layers; layer++)
+        memcpy(io_image_find(image, names[3 + layer])->data, g->depth[layer],
+               count * sizeof(float));
+    image->data_x = -g->desc.guard_left;
+    image->data_y = -g->desc.guard_top;
+    image->display_width = g->desc.width - g->desc.guard_left - g->desc.guard_right;
+    image->display_height = g->desc.height - g->desc.guard_top - g->desc.guard_bottom;
+    gbuffer_describe_camera(g, image);
+    return 0;
 }

@@ -13,4 +13,8 @@ void gbuffer_describe_camera(const scene_gbuffer *g, io_image *image);
 /* Normals in world space, guard band included, a plane for each component. */
 void gbuffer_world_normals(const scene_gbuffer *g, float *const out[3]);
 
+/* Channels Z, layer2.Z or solid2.Z and so on, and N.X N.Y N.Z in world space, with the
+ * camera. 0, or -1 after an error line; the caller frees the image. */
+int gbuffer_make_image(const scene_gbuffer *g, io_image *image, const crv_logger *log);
+
 #endif

@@ -57,6 +57,11 @@ int output_guarded(int (*write)(void *data), void *data)
     return result;
 }
 
+bool output_interrupted(void)
+{
+    return caught_signal != 0;
+}
+
 typedef struct picture {
     const char *path;
     const io_image *image;

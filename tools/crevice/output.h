@@ -18,4 +18,8 @@ int output_write(const char *path, const io_image *image, const io_write_options
  * is being written is finished first. Returns what write() returned. */
 int output_guarded(int (*write)(void *data), void *data);
 
+/* Whether a signal waits for the end of the guarded call: work that can be given up
+ * should be. */
+bool output_interrupted(void);
+
 #endif

@@ -3,19 +3,67 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-static int compare_floats(const void *a, const void *b)
+enum { HALF_BITS = 16, BINS = 1 << HALF_BITS };
+
+/* The bin that holds the element of this rank, counting from 0; *rank becomes its rank
+ * within the bin. */
+static uint32_t bin_of_rank(const size_t *bins, size_t *rank)
 {
-    float x = *(const float *)a, y = *(const float *)b;
+    uint32_t bin = 0;
 
-    return (x > y) - (x < y);
+    while (*rank >= bins[bin])
+        *rank -= bins[bin++];
+    return bin;
+}
+
+static uint32_t bits_of(float value)
+{
+    uint32_t bits;
+
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+/* The median of the finite values: positive floats are in the order of their bits, so
+ * that it is found half the bits at a time by counting, many times as fast as by sorting.
+ * False where memory is out; *median is 0 where there is no finite value. */
+static bool find_median(const float *values, size_t count, double *median)
+{
+    size_t *bins = calloc(BINS, sizeof *bins), rank = 0;
+    uint32_t bits;
+    float value;
+
+    if (bins == NULL)
+        return false;
+    for (size_t i = 0; i < count; i++)
+        if (isfinite(values[i])) {
+            bins[bits_of(values[i]) >> HALF_BITS]++;
+            rank++;
+        }
+    *median = 0.0;
+    if (rank > 0) {
+        rank /= 2;
+        bits = bin_of_rank(bins, &rank) << HALF_BITS;
+        memset(bins, 0, BINS * sizeof *bins);
+        for (size_t i = 0; i < count; i++)
+            if (bits_of(values[i]) >> HALF_BITS == bits >> HALF_BITS)
+                bins[bits_of(values[i]) & (BINS - 1)]++;
+        bits |= bin_of_rank(bins, &rank);
+        memcpy(&value, &bits, sizeof value);
+        *median = (double)value;
+    }
+    free(bins);
+    return true;
 }
 
 /* The median of the finite depths, 0 where there is none. Depth has been converted by
  * then, whatever its encoding was. */
 static int median_depth(estimator *e, double *out, report *r)
 {
-    size_t count = (size_t)e->desc.width * (size_t)e->desc.height, kept = 0;
+    size_t count = (size_t)e->desc.width * (size_t)e->desc.height;
+    bool done;
     float *depth = malloc(count * sizeof *depth);
     crv_image view = crv_image_packed(depth, e->desc.width, e->desc.height, 1);
 
@@ -25,13 +73,9 @@ static int median_depth(estimator *e, double *out, report *r)
         free(depth);
         return EXIT_FAILED;
     }
-    for (size_t i = 0; i < count; i++)
-        if (isfinite(depth[i]))
-            depth[kept++] = depth[i];
-    qsort(depth, kept, sizeof *depth, compare_floats);
-    *out = kept > 0 ? (double)depth[kept / 2] : 0.0;
+    done = find_median(depth, count, out);
     free(depth);
-    return EXIT_DONE;
+    return done ? EXIT_DONE : report_no_memory(r);
 }
 
 static double two_digits(double value)

@@ -9,6 +9,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "io.h"
+
 #define BATCH_SECONDS      0.25
 #define CHECKPOINT_SECONDS 10.0
 #define LINE_SECONDS       10.0 /* between lines of progress where there is no terminal */
@@ -61,7 +63,20 @@ int reference_run_check(reference_run *run, const char *output, bool resume, rep
     return EXIT_USAGE;
 }
 
-static int begin(reference_run *run, bool resume, report *r)
+/* Before the work a full disk is told of: while a checkpoint takes the place of another
+ * both are there, and so are the last one and the picture, whose channels take six floats
+ * a pixel where they cannot be compressed. */
+static int try_room(reference_run *run, const char *output, report *r)
+{
+    size_t picture = (size_t)reference_total(run->work) * 6 * sizeof(float) + 65536;
+
+    return reference_save(run->work, run->checkpoint, &r->logger) == 0
+                   && io_check_room(output, picture, &r->logger) == 0
+               ? EXIT_DONE
+               : EXIT_FAILED;
+}
+
+static int begin(reference_run *run, const char *output, bool resume, report *r)
 {
     if (resume && access(run->checkpoint, F_OK) == 0) {
         if (reference_load(run->work, run->checkpoint, &r->logger) != 0)
@@ -69,13 +84,16 @@ static int begin(reference_run *run, bool resume, report *r)
         report_info(r, "%s: resumed at %.1f %%", run->checkpoint,
                     100.0 * (double)reference_done(run->work)
                         / (double)reference_total(run->work));
-        return EXIT_DONE;
+        return try_room(run, output, r);
     }
     if (resume)
         report_info(r, "%s: is not there; begins anew", run->checkpoint);
-    /* As large as all later ones: a full disk shows now. */
-    return reference_save(run->work, run->checkpoint, &r->logger) == 0 ? EXIT_DONE
-                                                                       : EXIT_FAILED;
+    if (reference_save(run->work, run->checkpoint, &r->logger) != 0)
+        return EXIT_FAILED;
+    if (try_room(run, output, r) == EXIT_DONE)
+        return EXIT_DONE;
+    remove(run->checkpoint); /* holds no work */
+    return EXIT_FAILED;
 }
 
 /* "1 h 04 min", "3 min 20 s", "12 s" */
@@ -164,23 +182,23 @@ static void compute(reference_run *run, int32_t threads, report *r)
     end_progress(&p);
 }
 
-int reference_run_all(reference_run *run, bool resume, int32_t threads, report *r)
+int reference_run_all(reference_run *run, const char *output, bool resume,
+                      int32_t threads, report *r)
 {
     struct sigaction former[STOP_COUNT];
-    int result = begin(run, resume, r);
-    int caught;
+    int result, caught;
 
-    if (result != EXIT_DONE)
-        return result;
     hold_signals(former);
-    compute(run, threads, r);
+    result = begin(run, output, resume, r);
+    if (result == EXIT_DONE)
+        compute(run, threads, r);
     caught = stop_signal;
-    if (caught != 0 && !run->is_saved)
+    if (result == EXIT_DONE && caught != 0 && !run->is_saved)
         save(run, r);
     release_signals(former);
     if (caught == 0)
-        return EXIT_DONE;
-    if (run->is_saved)
+        return result;
+    if (result == EXIT_DONE && run->is_saved)
         report_error(r, "%s: interrupted at %.1f %%; go on with --resume",
                      run->checkpoint,
                      100.0 * (double)reference_done(run->work)
@@ -194,6 +212,11 @@ void reference_run_keep(reference_run *run, report *r)
     save(run, r);
     if (run->is_saved)
         report_info(r, "%s: holds the finished work; write it with --resume",
+                    run->checkpoint);
+    else
+        report_info(r,
+                    "%s: holds all but the last seconds of the work; go on with "
+                    "--resume",
                     run->checkpoint);
 }
 

@@ -2,87 +2,114 @@
 /* methods/hsao.c for the lanes of a vector. */
 #include "cpu/kernels/march.h"
 
-/* The horizon of one slice. */
-typedef struct horizon {
-    vf height, occlusion;
-} horizon;
+/* A slice and its horizon so far. */
+typedef struct slice {
+    crv__v3 t, h;         /* the tangent; the direction of the horizon ray */
+    vf height, occlusion; /* see the scalar code */
+    vf weight;            /* of what raised the horizon last */
+} slice;
 
-CRV__INLINE horizon trace_horizon(const crv__frame *f, crv__shape shape,
-                                  const crv__pixels *at, crv__v3 origin, crv__v3 t)
+/* Raises the horizon where the look of step i is blocked. */
+CRV__INLINE void raise_horizon(const crv__frame *f, crv__shape shape,
+                               const crv__pixels *at, crv__v3 origin,
+                               const crv__look *look, int32_t i, slice *s)
 {
     const crv__params *p = f->params;
-    const vf step = vf_set(p->radius / (float)p->steps);
-    horizon result = {vf_zero(), vf_zero()};
-    vf weight = vf_zero();
-    crv__v3 h = t;
-    for (int32_t i = 1; i <= p->steps; i++) {
-        crv__v3 to = origin;
-        vf squared = vf_zero();
-        const crv__v3 Q = crv__v3_add_scaled(origin, h, crv__lanes_step(p, at, i));
-        vm raise = crv__lanes_blocked(f, shape, origin, Q, at->active, &to, &squared);
-        if (!vm_any(raise))
-            continue;
-        const vf along_t = crv__v3_dot(to, t), along_n = crv__v3_dot(to, at->n);
-        raise = vm_and(raise, vf_lt(vf_zero(), along_t));
-        /* The height changes the next positions, so it is rounded as the scalar code's;
-         * it is above the horizon's only where along_n > 0. */
-        raise = vm_and(raise, vf_lt(vf_zero(), along_n));
-        if (!vm_any(raise))
-            continue;
-        const vf scale = vf_set(1) / vf_sqrt(along_t * along_t + along_n * along_n);
-        const vf height = along_n * scale;
-        raise = vm_and(raise, vf_lt(result.height, height));
-        const vf distance = vf_sqrt(squared);
-        if (p->growing_sphere)
-            raise = vm_and(raise, vf_le(distance, vf_set((float)i) * step));
-        if (!vm_any(raise))
-            continue;
-        const vf W = crv__lanes_falloff(p, distance * vf_set(p->inv_radius));
-        const vf gain = height * height - result.height * result.height;
-        result.occlusion = result.occlusion + vf_where(raise, gain * W);
-        result.height = vf_select(raise, height, result.height);
-        weight = vf_select(raise, W, weight);
-        const vf along = along_t * scale;
-        const crv__v3 n = at->n;
-        h.x = vf_select(raise, height * n.x + along * t.x, h.x);
-        h.y = vf_select(raise, height * n.y + along * t.y, h.y);
-        h.z = vf_select(raise, height * n.z + along * t.z, h.z);
-    }
-    if (p->attenuation == CRV_ATTENUATION_HORIZON)
-        result.occlusion = result.height * result.height * weight;
-    return result;
+    const crv__v3 n = at->n, t = s->t;
+    crv__v3 to;
+    vf squared;
+    vm raise = crv__lanes_blocked(f, shape, origin, look, &to, &squared);
+    const vf along_t = crv__v3_dot(to, t), along_n = crv__v3_dot(to, n);
+    /* Above the horizon there is only what is above the tangent. */
+    raise = vm_and(raise, vm_and(vf_lt(vf_zero(), along_t), vf_lt(vf_zero(), along_n)));
+    if (!vm_any(raise))
+        return;
+    /* The height turns the next positions: it is rounded as the scalar code's. */
+    const vf scale = vf_set(1) / vf_sqrt(along_t * along_t + along_n * along_n);
+    const vf height = along_n * scale, along = along_t * scale;
+    const vf distance = vf_sqrt(squared);
+    raise = vm_and(raise, vf_lt(s->height, height));
+    if (p->growing_sphere)
+        raise = vm_and(raise,
+                       vf_le(distance, vf_set((float)i * (p->radius / (float)p->steps))));
+    const vf W = crv__lanes_falloff(p, distance * vf_set(p->inv_radius));
+    const vf gain = height * height - s->height * s->height;
+    s->occlusion = s->occlusion + vf_where(raise, gain * W);
+    s->height = vf_select(raise, height, s->height);
+    s->weight = vf_select(raise, W, s->weight);
+    s->h.x = vf_select(raise, height * n.x + along * t.x, s->h.x);
+    s->h.y = vf_select(raise, height * n.y + along * t.y, s->h.y);
+    s->h.z = vf_select(raise, height * n.z + along * t.z, s->h.z);
 }
 
-CRV__INLINE vf normal_occlusion(const crv__frame *f, crv__shape shape,
-                                const crv__pixels *at, crv__v3 origin, crv__v3 t,
-                                vf height, vf stratum)
+CRV__INLINE void trace_horizons(const crv__frame *f, crv__shape shape,
+                                const crv__pixels *at, crv__v3 origin, int32_t count,
+                                slice slices[CRV__WALKS])
 {
     const crv__params *p = f->params;
-    const vf squared = height * height, rest = vf_set(1) - squared;
-    const vf rays = vf_set((float)p->normal_rays);
-    vf blocked = vf_zero();
-    for (int32_t k = 0; k < p->normal_rays; k++) {
-        const vf z2 = squared + rest * (vf_set((float)k) + stratum) / rays;
-        blocked =
-            blocked
-            + crv__lanes_march(f, shape, at, origin, crv__lanes_raised(at->n, t, z2));
+    crv__look looks[CRV__WALKS];
+    for (int32_t i = 1; i <= p->steps; i++) {
+        const vf step = crv__lanes_step(p, at, i);
+        for (int32_t k = 0; k < count; k++)
+            looks[k] = crv__lanes_look(
+                f, shape, crv__v3_add_scaled(origin, slices[k].h, step), at->active);
+        for (int32_t k = 0; k < count; k++) {
+            if (vm_any(looks[k].open))
+                raise_horizon(f, shape, at, origin, &looks[k], i, &slices[k]);
+        }
     }
-    return p->normal_rays ? rest * blocked / rays : vf_zero();
+    for (int32_t k = 0; k < count && p->attenuation == CRV_ATTENUATION_HORIZON; k++)
+        slices[k].occlusion = slices[k].height * slices[k].height * slices[k].weight;
+}
+
+/* What the rays above the horizons hit, added to the slices' occlusion. */
+CRV__INLINE void add_normal_rays(const crv__frame *f, crv__shape shape,
+                                 const crv__pixels *at, crv__v3 origin, int32_t first,
+                                 int32_t count, slice slices[CRV__WALKS])
+{
+    const crv__params *p = f->params;
+    const vf rays = vf_set((float)p->normal_rays), one = vf_set(1);
+    crv__v3 directions[CRV__WALKS];
+    vf weights[CRV__WALKS], blocked[CRV__WALKS];
+    for (int32_t k = 0; k < count; k++)
+        blocked[k] = vf_zero();
+    for (int32_t ray = 0; ray < p->normal_rays; ray++) {
+        for (int32_t k = 0; k < count; k++) {
+            const vf squared = slices[k].height * slices[k].height;
+            const vf stratum = vf_set((float)ray) + crv__lanes_stratum(at, first + k);
+            directions[k] = crv__lanes_raised(at->n, slices[k].t,
+                                              squared + (one - squared) * stratum / rays);
+        }
+        crv__lanes_march(f, shape, at, origin, count, directions, weights);
+        for (int32_t k = 0; k < count; k++)
+            blocked[k] = blocked[k] + weights[k];
+    }
+    for (int32_t k = 0; k < count && p->normal_rays > 0; k++) {
+        const vf rest = one - slices[k].height * slices[k].height;
+        slices[k].occlusion = slices[k].occlusion + rest * blocked[k] / rays;
+    }
 }
 
 CRV__INLINE vf accessibility(const crv__frame *f, crv__shape shape, const crv__pixels *at)
 {
     const crv__params *p = f->params;
+    const vf zero = vf_zero();
     const crv__v3 origin = crv__lanes_lift(p, shape, at->P, at->n);
     crv__v3 tangent, bitangent;
     crv__lanes_tangents(at->n, &tangent, &bitangent);
-    vf occlusion = vf_zero();
-    for (int32_t i = 0; i < p->directions; i++) {
-        const crv__v3 t = crv__lanes_slice_tangent(at, i, tangent, bitangent);
-        const horizon h = trace_horizon(f, shape, at, origin, t);
-        occlusion = occlusion + h.occlusion
-                    + normal_occlusion(f, shape, at, origin, t, h.height,
-                                       crv__lanes_stratum(at, i));
+    vf occlusion = zero;
+    for (int32_t first = 0; first < p->directions; first += CRV__WALKS) {
+        const int32_t rest = p->directions - first;
+        const int32_t count = rest < CRV__WALKS ? rest : CRV__WALKS;
+        slice slices[CRV__WALKS];
+        for (int32_t k = 0; k < count; k++) {
+            const crv__v3 t = crv__lanes_slice_tangent(at, first + k, tangent, bitangent);
+            slices[k] = (slice){t, t, zero, zero, zero};
+        }
+        trace_horizons(f, shape, at, origin, count, slices);
+        add_normal_rays(f, shape, at, origin, first, count, slices);
+        for (int32_t k = 0; k < count; k++)
+            occlusion = occlusion + slices[k].occlusion;
     }
     return vf_set(1) - occlusion / vf_set((float)p->directions);
 }
@@ -92,4 +119,4 @@ CRV__INLINE int within(const crv__frame *f, const crv__pixels *at)
     return crv__march_within(f, at);
 }
 
-CRV__ESTIMATE_KERNEL(hsao)
+CRV__ESTIMATE_KERNEL(hsao, 1)

@@ -3,18 +3,27 @@
 #ifndef CRV_CPU_KERNELS_KERNEL_H
 #define CRV_CPU_KERNELS_KERNEL_H
 
-#include "core/frame.h"
+#include "core/conversions.h"
+#include "cpu/kernels/fast.h"
 
 /* Accessibility of the pixels x0 to x1 - 1 of row y, intensity applied, in [0, 1],
  * background 1, to out[0 .. x1 - x0). */
 typedef void (*crv__estimate_kernel)(const crv__frame *frame, int32_t x0, int32_t x1,
                                      int32_t y, float *out);
 
-/* One pass of a filter over the same pixels; as crv__filter.filter for each that is not
- * background. */
+/* The pixels of x0 to x1 - 1 and y0 to y1 - 1. */
+typedef struct crv__tile {
+    int32_t x0, x1, y0, y1;
+} crv__tile;
+
+/* What a filter's kernel does at once: rows long enough to stream, and so few of them
+ * that what a pass leaves for the next (on the stack) stays in the cache. */
+enum { CRV__FILTER_TILE_WIDTH = 128, CRV__FILTER_TILE_HEIGHT = 84 };
+
+/* All passes of a filter over a rectangle no larger than a tile; as crv__filter.filter
+ * for each pixel that is not background. */
 typedef void (*crv__filter_kernel)(const crv__frame *frame, const crv__plane *input,
-                                   int32_t pass, int32_t x0, int32_t x1, int32_t y,
-                                   float *out);
+                                   const crv__plane *out, crv__tile tile);
 
 typedef struct crv__named_estimate {
     const char *name;
@@ -26,9 +35,22 @@ typedef struct crv__named_filter {
     crv__filter_kernel run;
 } crv__named_filter;
 
+/* A method's kernel in the fast structure, and its samples. 0 or 1 each: walks of steps
+ * in directions, not the points of a pattern; an even number of directions or points
+ * comes in opposite pairs; steps are rounded to even, not half up; those to the pixel
+ * itself are kept. */
+typedef struct crv__fast_kind {
+    const char *name;
+    crv__fast_kernel run;
+    int32_t is_walk, in_pairs, is_rounded, keeps_own;
+} crv__fast_kind;
+
 typedef struct crv__kernels {
     const crv__named_estimate *estimates; /* end with a NULL name */
     const crv__named_filter *filters;
+    const crv__fast_kind *fast;
+    crv__fast_deal_kernel deal;
+    crv__conversions conversions;
 } crv__kernels;
 
 #endif

@@ -57,6 +57,7 @@ typedef struct crv__pixels {
     const float
         *points; /* the pattern's points, or the directions, `stride` floats each */
     int32_t stride;
+    float scale; /* of points and directions, where a method wants them as lengths */
     const crv__turned_points *turned;
 } crv__pixels;
 
@@ -146,7 +147,7 @@ CRV__INLINE void crv__lanes_turned(const crv__pixels *at, float x, float y, vf *
     *turned_y = vf_set(x) * at->sin_alpha + vf_set(y) * at->cos_alpha;
 }
 
-/* The k-th point of the pattern, or direction, turned. */
+/* The k-th point of the pattern, or direction, turned and scaled. */
 CRV__INLINE void crv__lanes_point(const crv__pixels *at, int32_t k, vf *x, vf *y)
 {
     if (k < at->turned->count) {
@@ -156,6 +157,8 @@ CRV__INLINE void crv__lanes_point(const crv__pixels *at, int32_t k, vf *x, vf *y
     }
     const float *point = at->points + at->stride * k;
     crv__lanes_turned(at, point[0], point[1], x, y);
+    *x = *x * vf_set(at->scale);
+    *y = *y * vf_set(at->scale);
 }
 
 /* crv__stratum(). */
@@ -227,7 +230,10 @@ CRV__INLINE int crv__lanes_begin(const crv__frame *f, crv__pixels *at,
     turned->count = count < CRV__TURNED_POINTS ? count : CRV__TURNED_POINTS;
     for (int32_t k = 0; k < turned->count; k++) {
         const float *point = at->points + at->stride * k;
-        crv__lanes_turned(at, point[0], point[1], &turned->x[k], &turned->y[k]);
+        vf px, py;
+        crv__lanes_turned(at, point[0], point[1], &px, &py);
+        turned->x[k] = px * vf_set(at->scale);
+        turned->y[k] = py * vf_set(at->scale);
     }
     return 1;
 }
@@ -239,14 +245,14 @@ typedef int (*crv__lanes_within_test)(const crv__frame *, const crv__pixels *);
 
 /* Runs a method over a row: see crv__estimate_kernel. */
 CRV__INLINE void crv__estimate_row(const crv__frame *f, int32_t x0, int32_t x1, int32_t y,
-                                   float *out, crv__lanes_within_test within,
+                                   float *out, float scale, crv__lanes_within_test within,
                                    crv__lanes_method inner, crv__lanes_method border,
                                    crv__lanes_method general)
 {
     const crv__params *p = f->params;
     const vf one = vf_set(1), intensity = vf_set(p->intensity);
     const int common = p->layers == 1 && !p->orthographic;
-    crv__pixels at = {0};
+    crv__pixels at = {.scale = scale};
     crv__turned_points turned;
     const int steady = crv__lanes_begin(f, &at, &turned, x0, y);
     for (int32_t x = x0; x < x1; x += CRV__LANES) {
@@ -266,8 +272,9 @@ CRV__INLINE void crv__estimate_row(const crv__frame *f, int32_t x0, int32_t x1, 
 }
 
 /* Defines the kernel of a method from its static functions accessibility() and within().
- * What is common, one layer in perspective, is compiled for itself. */
-#define CRV__ESTIMATE_KERNEL(name)                                                       \
+ * What is common, one layer in perspective, is compiled for itself. scale: of the points,
+ * an expression of the frame f. */
+#define CRV__ESTIMATE_KERNEL(name, scale)                                                \
     CRV__NOINLINE vf inner(const crv__frame *f, const crv__pixels *at)                   \
     {                                                                                    \
         return accessibility(f, (crv__shape){1, 0, 0, 1}, at);                           \
@@ -287,7 +294,7 @@ CRV__INLINE void crv__estimate_row(const crv__frame *f, int32_t x0, int32_t x1, 
     void CRV__NAME(name)(const crv__frame *f, int32_t x0, int32_t x1, int32_t y,         \
                          float *out)                                                     \
     {                                                                                    \
-        crv__estimate_row(f, x0, x1, y, out, within, inner, border, general);            \
+        crv__estimate_row(f, x0, x1, y, out, scale, within, inner, border, general);     \
     }
 
 #endif

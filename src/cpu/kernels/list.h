@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What has a kernel in every instruction set: one line each. */
+/* What has a kernel in every instruction set: one line each. FAST: see
+ * crv__fast_kind. */
 CRV__ESTIMATE(alchemy)
 CRV__ESTIMATE(containment)
 CRV__ESTIMATE(hbao)
@@ -11,3 +12,6 @@ CRV__ESTIMATE(vo)
 CRV__FILTER(bilateral13)
 CRV__FILTER(box4)
 CRV__FILTER(gauss5)
+CRV__FAST(alchemy, 0, 0, 0, 0)
+CRV__FAST(hbao, 1, 1, 0, 0)
+CRV__FAST(vo, 0, 1, 1, 1)

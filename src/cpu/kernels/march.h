@@ -38,33 +38,31 @@ CRV__INLINE crv__v3 crv__lanes_lift(const crv__params *p, crv__shape shape, crv_
     return crv__v3_add_scaled(P, n, (shape.orthographic ? vf_set(1) : -P.z) / focal);
 }
 
-/* Whether every point within `reach` of the active lanes' points lies before the eye and
- * on the buffers, so that none of them need be tested. */
-CRV__INLINE int crv__lanes_within(const crv__params *p, crv__shape shape, crv__v3 P,
-                                  vf reach, vm active)
+/* The least and the greatest slope a / z of points within `reach` of (a, z) in a plane
+ * through the eye: those of the tangents to the circle. reach < z. */
+CRV__INLINE void crv__lanes_slopes(vf a, vf z, vf reach, vf *least, vf *greatest)
 {
-    const vf one = vf_set(1), zero = vf_zero();
-    const vf nearest = -P.z - reach, farthest = -P.z + reach;
-    /* Of the four corners of the square around P the outermost, a pixel more for all
-     * rounding. */
-    vf inverse_near = one, inverse_far = one;
-    if (!shape.orthographic) {
-        inverse_near = one / nearest;
-        inverse_far = one / farthest;
-    }
-    const vf left = P.x - reach, right = P.x + reach;
-    const vf low = P.y - reach, high = P.y + reach;
+    const vf z2 = z * z, reach2 = reach * reach, inverse = vf_set(1) / (z2 - reach2);
+    const vf middle = a * z * inverse;
+    const vf half = reach * vf_sqrt(vf_max(a * a + z2 - reach2, vf_zero())) * inverse;
+    *least = middle - half;
+    *greatest = middle + half;
+}
+
+/* Whether every point within `reach` of the active lanes' points lies before the eye and
+ * on the buffers, so that none of them need be tested. Perspective. */
+CRV__INLINE int crv__lanes_within(const crv__params *p, crv__v3 P, vf reach, vm active)
+{
+    vf left, right, low, high;
+    crv__lanes_slopes(P.x, -P.z, reach, &left, &right);
+    crv__lanes_slopes(P.y, -P.z, reach, &low, &high);
+    /* A pixel less for all rounding. */
     const vf fx = vf_set(p->fx), fy = vf_set(p->fy);
-    const vf x0 = fx * left * vf_select(vf_lt(left, zero), inverse_near, inverse_far);
-    const vf x1 = fx * right * vf_select(vf_lt(zero, right), inverse_near, inverse_far);
-    const vf y0 = fy * low * vf_select(vf_lt(low, zero), inverse_near, inverse_far);
-    const vf y1 = fy * high * vf_select(vf_lt(zero, high), inverse_near, inverse_far);
-    vm inside = vm_and(vf_lt(vf_set(1 - p->cx), x0),
-                       vf_lt(x1, vf_set((float)p->width - p->cx - 1)));
-    inside = vm_and(inside, vm_and(vf_lt(vf_set(p->cy - (float)p->height + 1), y0),
-                                   vf_lt(y1, vf_set(p->cy - 1))));
-    if (!shape.orthographic)
-        inside = vm_and(inside, vf_lt(zero, nearest));
+    vm inside = vm_and(vf_lt(vf_set(1 - p->cx), fx * left),
+                       vf_lt(fx * right, vf_set((float)p->width - p->cx - 1)));
+    inside = vm_and(inside, vf_lt(vf_set(p->cy - (float)p->height + 1), fy * low));
+    inside = vm_and(inside, vf_lt(fy * high, vf_set(p->cy - 1)));
+    inside = vm_and(inside, vf_lt(reach * vf_set(1.001f), -P.z));
     return !vm_any(vm_and(active, vm_not(inside)));
 }
 
@@ -80,8 +78,11 @@ CRV__INLINE crv__texels crv__lanes_texels(const crv__params *p, crv__shape shape
 {
     const vf unit = -Q.z;
     vf x = vf_set(p->fx) * Q.x, y = vf_set(p->fy) * Q.y;
-    if (!shape.orthographic)
-        vf_quotients(x, y, unit, &x, &y);
+    if (!shape.orthographic) {
+        /* The reciprocal would do for both, but not to the bit. */
+        x = x / unit;
+        y = y / unit;
+    }
     crv__texels texels = {vi_floor(vf_set(p->cx) + x), vi_floor(vf_set(p->cy) - y),
                           active};
     if (!shape.within) {
@@ -103,39 +104,59 @@ CRV__INLINE vf crv__lanes_back(const crv__frame *f, crv__shape shape, int32_t la
                : d + thickness;
 }
 
-/* crv__blocked(). Lanes that are not `active` are not blocked. *to: from the origin to
- * the surface point; *squared: its length. Both hold anything where not blocked. */
+/* A point of a walk, looked up in the depth buffer. */
+typedef struct crv__look {
+    vi u, v;
+    vf depth; /* of the point */
+    vf front; /* of the first layer there */
+    vm open;  /* lanes that may be blocked: one layer alone is decided but for the radius
+               */
+} crv__look;
+
+CRV__INLINE crv__look crv__lanes_look(const crv__frame *f, crv__shape shape, crv__v3 Q,
+                                      vm active)
+{
+    const crv__texels at = crv__lanes_texels(f->params, shape, Q, active);
+    const vi index = crv__lanes_index(&f->depth[0], at.u, at.v);
+    crv__look look = {at.u, at.v, -Q.z, vf_gather(f->depth[0].data, index, at.in), at.in};
+    if (shape.layers == 1) {
+        const vm behind = vm_and(at.in, vf_lt(look.front, look.depth));
+        const vf back = look.front + vf_set(f->params->thickness);
+        look.open = vm_and(behind, vf_lt(look.depth, back));
+    }
+    return look;
+}
+
+/* crv__blocked() of a point whose look is open in some lane. *to: from the origin to the
+ * surface point; *squared: its length. Both hold anything where not blocked. */
 CRV__INLINE vm crv__lanes_blocked(const crv__frame *f, crv__shape shape, crv__v3 origin,
-                                  crv__v3 Q, vm active, crv__v3 *to, vf *squared)
+                                  const crv__look *look, crv__v3 *to, vf *squared)
 {
     const crv__params *p = f->params;
-    const crv__texels at = crv__lanes_texels(p, shape, Q, active);
-    const vi index = crv__lanes_index(&f->depth[0], at.u, at.v);
-    vm open = at.in, blocked = vm_none();
+    const vf radius2 = vf_set(p->radius * p->radius);
+    *to = crv__v3_sub(crv__lanes_unproject_at(p, shape, look->u, look->v, look->front),
+                      origin);
+    *squared = crv__v3_dot(*to, *to);
+    if (shape.layers == 1)
+        return vm_and(look->open, vf_lt(*squared, radius2));
+
+    const vi index = crv__lanes_index(&f->depth[0], look->u, look->v);
+    vm open = look->open, blocked = vm_none();
     for (int32_t layer = 0; layer < shape.layers; layer += 1 + shape.solid) {
         const vf d = vf_gather(f->depth[layer].data, index, open);
-        vm behind = vm_and(open, vf_lt(d, -Q.z));
-        if (!vm_any(behind))
-            continue;
+        vm behind = vm_and(open, vf_lt(d, look->depth));
         const vf back =
             crv__lanes_back(f, shape, layer, index, behind, d, vf_set(p->thickness));
-        behind = vm_and(behind, vf_lt(-Q.z, back));
-        const crv__v3 I = crv__lanes_unproject_at(p, shape, at.u, at.v, d);
-        const crv__v3 v = crv__v3_sub(I, origin);
+        behind = vm_and(behind, vf_lt(look->depth, back));
+        const crv__v3 v =
+            crv__v3_sub(crv__lanes_unproject_at(p, shape, look->u, look->v, d), origin);
         const vf length2 = crv__v3_dot(v, v);
-        behind = vm_and(behind, vf_lt(length2, vf_set(p->radius * p->radius)));
-        if (layer == 0) {
-            *to = v;
-            *squared = length2;
-        } else {
-            to->x = vf_select(behind, v.x, to->x);
-            to->y = vf_select(behind, v.y, to->y);
-            to->z = vf_select(behind, v.z, to->z);
-            *squared = vf_select(behind, length2, *squared);
-        }
+        behind = vm_and(behind, vf_lt(length2, radius2));
+        to->x = vf_select(behind, v.x, to->x);
+        to->y = vf_select(behind, v.y, to->y);
+        to->z = vf_select(behind, v.z, to->z);
+        *squared = vf_select(behind, length2, *squared);
         blocked = vm_or(blocked, behind);
-        if (shape.layers == 1)
-            break;
         open = vm_and(open, vm_not(behind));
         if (!vm_any(open))
             break;
@@ -158,31 +179,52 @@ CRV__INLINE int crv__march_within(const crv__frame *f, const crv__pixels *at)
     const crv__shape shape = {.orthographic = 0};
     const float reach = p->radius * (1 + 1 / (float)p->steps) * 1.0001f;
     const crv__v3 origin = crv__lanes_lift(p, shape, at->P, at->n);
-    return crv__lanes_within(p, shape, origin, vf_set(reach), at->active);
+    return crv__lanes_within(p, origin, vf_set(reach), at->active);
 }
 
-/* crv__march(): the falloff's weight of the first thing in the way, by lane. */
-CRV__INLINE vf crv__lanes_march(const crv__frame *f, crv__shape shape,
-                                const crv__pixels *at, crv__v3 origin, crv__v3 direction)
+/*
+ * Walks of several directions go side by side: the look-ups of a step do not wait for
+ * each other, and a branch that is foretold wrongly costs all of them one delay.
+ */
+enum { CRV__WALKS = 8 };
+
+/* crv__march() of `count` directions: the falloff's weight of the first thing in the way,
+ * by lane. */
+CRV__INLINE void crv__lanes_march(const crv__frame *f, crv__shape shape,
+                                  const crv__pixels *at, crv__v3 origin, int32_t count,
+                                  const crv__v3 directions[CRV__WALKS],
+                                  vf weights[CRV__WALKS])
 {
     const crv__params *p = f->params;
-    vm open = at->active;
-    vf nearest = vf_set(INFINITY);
-    for (int32_t i = 1; i <= p->steps; i++) {
-        crv__v3 to = origin;
-        vf squared = vf_zero();
-        const crv__v3 Q =
-            crv__v3_add_scaled(origin, direction, crv__lanes_step(p, at, i));
-        const vm blocked = crv__lanes_blocked(f, shape, origin, Q, open, &to, &squared);
-        if (!vm_any(blocked))
-            continue;
-        nearest = vf_select(blocked, squared, nearest);
-        open = vm_and(open, vm_not(blocked));
-        if (!vm_any(open))
-            break;
+    const vf infinity = vf_set(INFINITY);
+    crv__look looks[CRV__WALKS];
+    vm open[CRV__WALKS], any = at->active;
+    for (int32_t k = 0; k < count; k++) {
+        open[k] = at->active;
+        weights[k] = infinity; /* at first the nearest squared distance */
     }
-    return vf_where(vf_lt(nearest, vf_set(INFINITY)),
-                    crv__lanes_falloff(p, vf_sqrt(nearest) * vf_set(p->inv_radius)));
+    for (int32_t i = 1; i <= p->steps && vm_any(any); i++) {
+        const vf step = crv__lanes_step(p, at, i);
+        for (int32_t k = 0; k < count; k++)
+            looks[k] = crv__lanes_look(
+                f, shape, crv__v3_add_scaled(origin, directions[k], step), open[k]);
+        any = vm_none();
+        for (int32_t k = 0; k < count; k++) {
+            if (vm_any(looks[k].open)) {
+                crv__v3 to;
+                vf squared;
+                const vm blocked =
+                    crv__lanes_blocked(f, shape, origin, &looks[k], &to, &squared);
+                weights[k] = vf_select(blocked, squared, weights[k]);
+                open[k] = vm_and(open[k], vm_not(blocked));
+            }
+            any = vm_or(any, open[k]);
+        }
+    }
+    for (int32_t k = 0; k < count; k++) {
+        const vf q = vf_sqrt(weights[k]) * vf_set(p->inv_radius);
+        weights[k] = vf_where(vf_lt(weights[k], infinity), crv__lanes_falloff(p, q));
+    }
 }
 
 #endif

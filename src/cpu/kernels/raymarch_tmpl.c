@@ -9,18 +9,24 @@ CRV__INLINE vf accessibility(const crv__frame *f, crv__shape shape, const crv__p
     crv__v3 tangent, bitangent;
     crv__lanes_tangents(at->n, &tangent, &bitangent);
     const int32_t rays = p->normal_rays > 0 ? p->normal_rays : 1;
+    const int32_t all = p->directions * rays;
     vf occlusion = vf_zero();
-    for (int32_t i = 0; i < p->directions; i++) {
-        const crv__v3 t = crv__lanes_slice_tangent(at, i, tangent, bitangent);
-        const vf jitter = crv__lanes_stratum(at, i);
-        for (int32_t k = 0; k < rays; k++) {
-            const vf stratum = (vf_set((float)k) + jitter) / vf_set((float)rays);
-            occlusion = occlusion
-                        + crv__lanes_march(f, shape, at, origin,
-                                           crv__lanes_raised(at->n, t, stratum));
+    for (int32_t first = 0; first < all; first += CRV__WALKS) {
+        const int32_t count = all - first < CRV__WALKS ? all - first : CRV__WALKS;
+        crv__v3 directions[CRV__WALKS];
+        vf weights[CRV__WALKS];
+        for (int32_t k = 0; k < count; k++) {
+            const int32_t i = (first + k) / rays, ray = (first + k) % rays;
+            const crv__v3 t = crv__lanes_slice_tangent(at, i, tangent, bitangent);
+            const vf stratum =
+                (vf_set((float)ray) + crv__lanes_stratum(at, i)) / vf_set((float)rays);
+            directions[k] = crv__lanes_raised(at->n, t, stratum);
         }
+        crv__lanes_march(f, shape, at, origin, count, directions, weights);
+        for (int32_t k = 0; k < count; k++)
+            occlusion = occlusion + weights[k];
     }
-    return vf_set(1) - occlusion / vf_set((float)(p->directions * rays));
+    return vf_set(1) - occlusion / vf_set((float)all);
 }
 
 CRV__INLINE int within(const crv__frame *f, const crv__pixels *at)
@@ -28,4 +34,4 @@ CRV__INLINE int within(const crv__frame *f, const crv__pixels *at)
     return crv__march_within(f, at);
 }
 
-CRV__ESTIMATE_KERNEL(raymarch)
+CRV__ESTIMATE_KERNEL(raymarch, 1)

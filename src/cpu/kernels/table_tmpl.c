@@ -6,25 +6,53 @@
 #define CRV__ESTIMATE(name)                                                              \
     void CRV__NAME(name)(const crv__frame *, int32_t, int32_t, int32_t, float *);
 #define CRV__FILTER(name)                                                                \
-    void CRV__NAME(name)(const crv__frame *, const crv__plane *, int32_t, int32_t,       \
-                         int32_t, int32_t, float *);
+    void CRV__NAME(name)(const crv__frame *, const crv__plane *, const crv__plane *,     \
+                         crv__tile);
+#define CRV__FAST(name, ...)                                                             \
+    int CRV__NAME(name##_fast)(const crv__frame *, const crv__fast *, int32_t, int32_t,  \
+                               int32_t, int32_t, int32_t, float *);
 #include "cpu/kernels/list.h"
 #undef CRV__ESTIMATE
 #undef CRV__FILTER
+#undef CRV__FAST
+
+void CRV__NAME(deal)(const crv__frame *, const crv__fast *, int32_t);
 
 static const crv__named_estimate ESTIMATES[] = {
 #define CRV__ESTIMATE(name) {#name, CRV__NAME(name)},
 #define CRV__FILTER(name)
+#define CRV__FAST(...)
 #include "cpu/kernels/list.h"
 #undef CRV__ESTIMATE
 #undef CRV__FILTER
+#undef CRV__FAST
     {0}};
 
 static const crv__named_filter FILTERS[] = {
 #define CRV__ESTIMATE(name)
 #define CRV__FILTER(name) {#name, CRV__NAME(name)},
+#define CRV__FAST(...)
+#include "cpu/kernels/list.h"
+#undef CRV__ESTIMATE
+#undef CRV__FILTER
+#undef CRV__FAST
+    {0}};
+
+static const crv__fast_kind FAST[] = {
+#define CRV__ESTIMATE(name)
+#define CRV__FILTER(name)
+#define CRV__FAST(name, ...) {#name, CRV__NAME(name##_fast), __VA_ARGS__},
 #include "cpu/kernels/list.h"
     {0}};
 
+void CRV__NAME(depth_row)(const crv__depth_map *, const float *, ptrdiff_t, int32_t,
+                          int32_t, float *);
+void CRV__NAME(normals_row)(const crv__params *, const crv__plane *, const crv__plane *,
+                            int32_t, int32_t);
+
 extern const crv__kernels CRV__NAME(kernels);
-const crv__kernels CRV__NAME(kernels) = {ESTIMATES, FILTERS};
+const crv__kernels CRV__NAME(kernels) = {ESTIMATES,
+                                         FILTERS,
+                                         FAST,
+                                         CRV__NAME(deal),
+                                         {CRV__NAME(depth_row), CRV__NAME(normals_row)}};

@@ -73,4 +73,4 @@ CRV__INLINE int within(const crv__frame *f, const crv__pixels *at)
                                   vf_set(p->radius * p->fy) / at->depth);
 }
 
-CRV__ESTIMATE_KERNEL(vo)
+CRV__ESTIMATE_KERNEL(vo, 1)

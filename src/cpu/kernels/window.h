@@ -10,7 +10,6 @@ typedef struct crv__window {
     const crv__frame *frame;
     const crv__plane *input;
     int32_t x, y;
-    int free; /* no tap of any lane leaves the input, so that nothing need be tested */
     vf depth, slope_x, slope_y;
     crv__v3 normal;
 } crv__window;
@@ -54,13 +53,10 @@ CRV__INLINE vf crv__lanes_slope(const crv__plane *depth, int32_t x, int32_t y,
 }
 
 CRV__INLINE crv__window crv__window_at(const crv__frame *f, const crv__plane *input,
-                                       int32_t reach, int32_t x, int32_t y)
+                                       int32_t x, int32_t y)
 {
     vm inside;
     crv__window w = {.frame = f, .input = input, .x = x, .y = y};
-    w.free = x - reach >= input->x0 && y - reach >= input->y0
-             && x + reach + CRV__LANES <= input->x0 + input->width
-             && y + reach < input->y0 + input->height;
     w.depth = crv__row_read(&f->depth[0], x, y, &inside);
     w.normal.x = crv__row_read(&f->normal[0], x, y, &inside);
     w.normal.y = crv__row_read(&f->normal[1], x, y, &inside);
@@ -86,25 +82,13 @@ CRV__INLINE crv__taps crv__taps_at(const crv__window *w, int32_t dx, int32_t dy)
     const crv__frame *f = w->frame;
     const int32_t u = w->x + dx, v = w->y + dy;
     const vf one = vf_set(1);
-    vf d, value;
-    crv__v3 n;
-    vm inside;
-    if (w->free) {
-        d = vf_load(crv__plane_at(&f->depth[0], u, v));
-        value = vf_load(crv__plane_at(w->input, u, v));
-        n = (crv__v3){vf_load(crv__plane_at(&f->normal[0], u, v)),
-                      vf_load(crv__plane_at(&f->normal[1], u, v)),
-                      vf_load(crv__plane_at(&f->normal[2], u, v))};
-        inside = vf_le(value, value);
-    } else {
-        vm unused;
-        d = crv__row_read(&f->depth[0], u, v, &unused);
-        value = crv__row_read(w->input, u, v, &inside);
-        n = (crv__v3){crv__row_read(&f->normal[0], u, v, &unused),
-                      crv__row_read(&f->normal[1], u, v, &unused),
-                      crv__row_read(&f->normal[2], u, v, &unused)};
-        inside = vm_and(inside, vf_le(value, value));
-    }
+    vm inside, unused;
+    const vf d = crv__row_read(&f->depth[0], u, v, &unused);
+    const vf value = crv__row_read(w->input, u, v, &inside);
+    const crv__v3 n = {crv__row_read(&f->normal[0], u, v, &unused),
+                       crv__row_read(&f->normal[1], u, v, &unused),
+                       crv__row_read(&f->normal[2], u, v, &unused)};
+    inside = vm_and(inside, vf_le(value, value));
     /* In the scalar code's order and rounding: beside silhouettes the slopes are steep,
      * and cancel. They are finite, so that no step adds nothing. */
     vf expected = w->depth;
@@ -126,33 +110,19 @@ CRV__INLINE crv__taps crv__taps_at(const crv__window *w, int32_t dx, int32_t dy)
     return tap;
 }
 
-/* Runs a filter over a row: see crv__filter_kernel. A centre that is NaN stays so,
- * background is 1. */
-CRV__INLINE void crv__filter_row(const crv__frame *f, const crv__plane *input,
-                                 int32_t pass, int32_t reach, int32_t x0, int32_t x1,
-                                 int32_t y, float *out,
-                                 vf (*filter)(const crv__window *, int32_t))
+/* The slow and general way: `count` pixels of one row, wherever they are. A centre that
+ * is NaN stays so, background is 1. */
+CRV__INLINE void crv__filter_pixels(const crv__frame *f, const crv__plane *input,
+                                    int32_t x, int32_t y, int32_t count, float *out,
+                                    vf (*filter)(const crv__window *))
 {
-    for (int32_t x = x0; x < x1; x += CRV__LANES) {
-        const int32_t count = x1 - x < CRV__LANES ? x1 - x : CRV__LANES;
-        const crv__window w = crv__window_at(f, input, reach, x, y);
-        vm inside;
-        const vf own = crv__row_read(input, x, y, &inside);
-        vf result = vf_clamp01(filter(&w, pass));
-        result = vf_select(vf_le(own, own), result, own);
-        result = vf_select(vf_lt(w.depth, vf_set(INFINITY)), result, vf_set(1));
-        vf_store_n(out + (x - x0), result, count);
-    }
+    const crv__window w = crv__window_at(f, input, x, y);
+    vm inside;
+    const vf own = crv__row_read(input, x, y, &inside);
+    vf result = vf_clamp01(filter(&w));
+    result = vf_select(vf_le(own, own), result, own);
+    result = vf_select(vf_lt(w.depth, vf_set(INFINITY)), result, vf_set(1));
+    vf_store_n(out, result, count);
 }
-
-/* Defines the kernel of a filter from its static function filter(). */
-#define CRV__FILTER_KERNEL(name, reach)                                                  \
-    void CRV__NAME(name)(const crv__frame *f, const crv__plane *input, int32_t pass,     \
-                         int32_t x0, int32_t x1, int32_t y, float *out);                 \
-    void CRV__NAME(name)(const crv__frame *f, const crv__plane *input, int32_t pass,     \
-                         int32_t x0, int32_t x1, int32_t y, float *out)                  \
-    {                                                                                    \
-        crv__filter_row(f, input, pass, reach, x0, x1, y, out, filter);                  \
-    }
 
 #endif

@@ -128,6 +128,11 @@ CRV__INLINE vf vf_rsqrt_rough(vf a)
     return _mm256_rsqrt_ps(a);
 }
 
+CRV__INLINE vf vf_rcp_rough(vf a)
+{
+    return _mm256_rcp_ps(a);
+}
+
 CRV__INLINE vf vf_rsqrt(vf a)
 {
     const vf r = _mm256_rsqrt_ps(a);

@@ -123,9 +123,16 @@ CRV__INLINE vf vf_fma(vf a, vf b, vf c)
     return _mm512_fmadd_ps(a, b, c);
 }
 
+/* 14 bits. */
+#define CRV__ROUGH_IS_FAIR
 CRV__INLINE vf vf_rsqrt_rough(vf a)
 {
     return _mm512_rsqrt14_ps(a);
+}
+
+CRV__INLINE vf vf_rcp_rough(vf a)
+{
+    return _mm512_rcp14_ps(a);
 }
 
 CRV__INLINE vf vf_rsqrt(vf a)

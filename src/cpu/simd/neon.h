@@ -130,6 +130,12 @@ CRV__INLINE vf vf_rsqrt_rough(vf a)
     return r * vrsqrtsq_f32(a * r, r);
 }
 
+CRV__INLINE vf vf_rcp_rough(vf a)
+{
+    const vf r = vrecpeq_f32(a);
+    return r * vrecpsq_f32(a, r);
+}
+
 CRV__INLINE vf vf_rsqrt(vf a)
 {
     const vf r = vf_rsqrt_rough(a);

@@ -17,7 +17,9 @@
  *   vf_min vf_max            the second argument where either is a NaN
  *   vf_sqrt vf_floor vf_fma  exact; fma rounds twice where the set has none
  *   vf_rsqrt                 1/sqrt, relative error < 1e-6; not for denormal numbers
+ *   vf_rsqrt_fair            relative error < 1e-4, otherwise the same
  *   vf_rsqrt_rough           relative error < 4e-4; at 0 infinite or a NaN
+ *   vf_rcp_rough             1/a, relative error < 4e-4
  *   vi_trunc vi_round vf_of  conversions; the value must fit
  *   vi_floor                 rounded down; negative or INT32_MAX where it does not fit or
  *                            is a NaN
@@ -95,6 +97,16 @@ CRV__INLINE vf vf_zero(void)
     return vf_set(0);
 }
 
+/* 1/sqrt, relative error < 7e-5. */
+CRV__INLINE vf vf_rsqrt_fair(vf a)
+{
+#ifdef CRV__ROUGH_IS_FAIR
+    return vf_rsqrt_rough(a);
+#else
+    return vf_rsqrt(a);
+#endif
+}
+
 /* a where the mask is set, else 0. */
 CRV__INLINE vf vf_where(vm mask, vf a)
 {
@@ -132,23 +144,6 @@ CRV__INLINE void vf_store_n(float *to, vf a, int32_t n)
     vf_store(lanes, a);
     for (int32_t i = 0; i < n; i++)
         to[i] = lanes[i];
-}
-
-/*
- * a / d and b / d, rounded as divisions are: where fma rounds once, a quotient by the
- * reciprocal is put right by its remainder (Markstein 1990), and one division serves
- * both. NaN where a quotient is infinite.
- */
-CRV__INLINE void vf_quotients(vf a, vf b, vf d, vf *a_by_d, vf *b_by_d)
-{
-#if CRV__FMA_ROUNDS_ONCE
-    const vf r = vf_set(1) / d, qa = a * r, qb = b * r;
-    *a_by_d = vf_fma(vf_fma(-qa, d, a), r, qa);
-    *b_by_d = vf_fma(vf_fma(-qb, d, b), r, qb);
-#else
-    *a_by_d = a / d;
-    *b_by_d = b / d;
-#endif
 }
 
 /* e^a, relative error < 2e-7 * (1 + |a|); 0 below -87, a <= 0. Range reduction to powers

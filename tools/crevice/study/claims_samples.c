@@ -367,8 +367,11 @@ static int write_normaliser(study *s, study_view *v, cJSON *to)
               &(plot){.caption = "Noise of vao with both normalisers (`--normaliser`), "
                                  "4x4 tile, unfiltered: RMS distance from 512 samples of "
                                  "the weighted one. What the analytic formula keeps is "
-                                 "likely that of pipes, snapped to texels, which do not "
-                                 "add up to the sphere's volume.",
+                                 "perspective: seen from the side of the picture a "
+                                 "sphere is an ellipse, of which the pipes cover a "
+                                 "circle, and each is shorter along the view axis than "
+                                 "along its ray. The weighted one divides by what it "
+                                 "covers.",
                       .x_title = "samples n for each pixel",
                       .y_title = "RMS error",
                       .log_x = true,

@@ -16,6 +16,9 @@ int study_methods(study *s);
 /* What keeps each estimate from the truth: estimator, sampling, filter, missing data. */
 int study_missing(study *s);
 
+/* Kernels that move samples a little beside exact ones: error and time of both. */
+int study_structure(study *s);
+
 /* What the papers state. */
 int study_claims_hsao(study *s);    /* Dimitrov, Bavoil, Sainz 2008 */
 int study_claims_hbao(study *s);    /* Bavoil, Sainz, Dimitrov 2008 */

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT */
+/* What the G-buffer does to every pixel on the way in, row by row, so that kernels can
+ * stand in for the specification in depth.c and normals.c: they give the same numbers to
+ * the bit. */
+#ifndef CRV_CORE_CONVERSIONS_H
+#define CRV_CORE_CONVERSIONS_H
+
+#include "core/image.h"
+#include "crevice/camera.h"
+#include "crevice/gbuffer.h"
+#include "shared/params.h"
+
+/*
+ * What turns the numbers of a depth image into planar depth (depth.c). A hardware depth v
+ * in [0, 1] is affine in 1/d (perspective) or in d (orthographic): d = 1 / (a + b v) or
+ * d = a + b v.
+ */
+typedef struct crv__depth_map {
+    const crv_camera *camera;
+    crv_depth_format format;
+    double a, b;
+} crv__depth_map;
+
+typedef struct crv__conversions {
+    /* Planar depth of the pixels from (0, y) on, to out[0 .. count); `stride` is in
+     * floats. */
+    void (*depth_row)(const crv__depth_map *map, const float *from, ptrdiff_t stride,
+                      int32_t y, int32_t count, float *out);
+    /* Turns row y of normal[3] into unit normals that face the camera, reconstructed from
+     * depth where there are none; has_normals 0: there are none at all. */
+    void (*normals_row)(const crv__params *params, const crv__plane *depth,
+                        const crv__plane *normal, int32_t has_normals, int32_t y);
+} crv__conversions;
+
+typedef struct crv_context crv_context;
+
+/* Those of the best instruction set that the context allows, on any device; NULL: the
+ * specification. */
+const crv__conversions *crv__cpu_conversions(const crv_context *context);
+
+#endif

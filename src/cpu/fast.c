@@ -1,0 +1,303 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Builds what the fast structure's kernels read: depth by phases, and the table of
+ * samples by bucket and phase. The table depends on the camera and the options alone, so
+ * that frames of one camera share it.
+ */
+#include "cpu/fast.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    PHASES = CRV__FAST_PHASES * CRV__FAST_PHASES,
+    OCTAVES = 14,       /* of projected radii, from half a pixel on */
+    MOST_LAYERS = 3,    /* 48 bytes a pixel do not hold more */
+    BYTES_A_PIXEL = 48, /* beyond input and output */
+    TABLES_WHATEVER_THE_SIZE = 2 << 20
+};
+
+struct crv__fast_state {
+    crv__fast fast;
+    const crv__fast_kind *kind;
+    crv__fast_deal_kernel deal;
+    size_t depth_count, list_count, sample_count; /* allocated */
+    float fx, fy; /* that the tables were made for; 0: none */
+};
+
+typedef struct fill_job {
+    crv__fast_state *state;
+    const crv__frame *frame;
+} fill_job;
+
+static int32_t wrapped(int64_t value, int32_t size)
+{
+    return (int32_t)((value % size + size) % size);
+}
+
+/* Places of a plan's pixels and the sizes of all; 0 where the structure does not fit. */
+static int measure(crv__fast_state *s, const crv__setup *setup)
+{
+    crv__fast *fast = &s->fast;
+    const crv_gbuffer_desc *d = &setup->desc;
+    const crv_options *o = &setup->options;
+    const int32_t is_walk = s->kind->is_walk;
+    const int32_t count = is_walk ? o->directions : o->samples;
+    fast->paired = s->kind->in_pairs && count % 2 == 0;
+    fast->walks = is_walk ? count / (1 + fast->paired) : 1;
+    fast->steps = is_walk ? o->steps : count / (1 + fast->paired);
+    fast->buckets = OCTAVES * 4;
+    fast->left = wrapped((int64_t)d->origin_x - d->guard_left, CRV__FAST_SPAN);
+    fast->top = wrapped((int64_t)d->origin_y - d->guard_top, CRV__FAST_PHASES);
+    fast->columns = (fast->left + d->width + CRV__FAST_PHASES - 1) / CRV__FAST_PHASES;
+    const int32_t groups = (fast->columns + CRV__FAST_GROUP - 1) / CRV__FAST_GROUP;
+    fast->segment = groups * CRV__FAST_GROUP + 2 * CRV__FAST_PADDING;
+    /* An odd number of cache lines: the pixels of a column fall into different sets. */
+    fast->pitch = CRV__FAST_PHASES * fast->segment + CRV__FAST_GROUP;
+    fast->layer_pitch = fast->pitch * d->height;
+    s->list_count = (size_t)fast->buckets * PHASES;
+    s->sample_count = s->list_count * (size_t)(fast->walks * fast->steps);
+    s->depth_count = (size_t)fast->layer_pitch * (size_t)d->layers;
+
+    const double pixels = (double)d->width * d->height;
+    const double planes = 4.0 * d->layers + 12 + 4 + (setup->filter ? 4 : 0);
+    const double table =
+        (double)s->sample_count * (sizeof(crv__fast_sample) + sizeof(crv__fast_place));
+    const double left = (BYTES_A_PIXEL - planes) * pixels - 4.0 * (double)s->depth_count;
+    return fast->walks * fast->steps <= CRV__FAST_MOST_SAMPLES && d->layers <= MOST_LAYERS
+           && s->depth_count < INT32_MAX
+           && (table <= left || table <= TABLES_WHATEVER_THE_SIZE);
+}
+
+static int suits(const crv__setup *setup, const crv__fast_kind *kind)
+{
+    const crv_options *o = &setup->options;
+    const int32_t size = o->noise_size;
+    return kind && !setup->context->exact && (size == 1 || size == 2 || size == 4)
+           && !(setup->method->volumetric && setup->desc.layers > 1);
+}
+
+/* The scales of the phases spread the borders between buckets over an octave's quarter,
+ * so that no border is seen. */
+static void fill_scales(crv__fast *fast)
+{
+    static const float RANK[PHASES] = {0, 8,  2, 10, 12, 4, 14, 6,
+                                       3, 11, 1, 9,  15, 7, 13, 5};
+    for (int32_t i = 0; i < PHASES; i++)
+        fast->scale[i] = exp2f(0.25f * ((RANK[i] + 0.5f) / PHASES - 0.5f));
+    fast->largest = CRV__FAST_SMALLEST * (1 << OCTAVES) * exp2f(-0.125f) * 0.99f;
+}
+
+static crv_status allocate(crv__fast_state *s, const crv_allocator *allocator)
+{
+    crv__fast *fast = &s->fast;
+    fast->depth = crv__allocate(allocator, s->depth_count, sizeof(float));
+    fast->samples = crv__allocate(allocator, s->sample_count, sizeof *fast->samples);
+    fast->places = crv__allocate(allocator, s->sample_count, sizeof *fast->places);
+    fast->counts = crv__allocate(allocator, s->list_count * (size_t)fast->walks,
+                                 sizeof *fast->counts);
+    fast->reaches = crv__allocate(allocator, s->list_count, sizeof *fast->reaches);
+    return fast->depth && fast->samples && fast->places && fast->counts && fast->reaches
+               ? CRV_OK
+               : CRV_ERROR_OUT_OF_MEMORY;
+}
+
+crv_status crv__fast_create(const crv__setup *setup, crv__fast_state **state)
+{
+    const crv_allocator *allocator = &setup->context->allocator;
+    const crv__kernels *kernels = crv__kernels_best(setup->context->isa_mask);
+    crv__fast_state measured = {.kind =
+                                    crv__kernels_fast(kernels, setup->method->info.name)};
+    *state = NULL;
+    if (!suits(setup, measured.kind) || !measure(&measured, setup))
+        return CRV_OK;
+    measured.deal = kernels->deal;
+    fill_scales(&measured.fast);
+    crv__fast_state *s = crv__allocate(allocator, 1, sizeof *s);
+    if (!s)
+        return CRV_ERROR_OUT_OF_MEMORY;
+    *s = measured;
+    *state = s;
+    const crv_status status = allocate(s, allocator);
+    if (status) {
+        crv__fast_destroy(setup, s);
+        *state = NULL;
+    }
+    return status;
+}
+
+void crv__fast_destroy(const crv__setup *setup, crv__fast_state *s)
+{
+    if (!s)
+        return;
+    const crv_allocator *allocator = &setup->context->allocator;
+    crv__fast *fast = &s->fast;
+    crv__release(allocator, fast->depth, s->depth_count, sizeof(float));
+    crv__release(allocator, fast->samples, s->sample_count, sizeof *fast->samples);
+    crv__release(allocator, fast->places, s->sample_count, sizeof *fast->places);
+    crv__release(allocator, fast->counts, s->list_count * (size_t)fast->walks,
+                 sizeof *fast->counts);
+    crv__release(allocator, fast->reaches, s->list_count, sizeof *fast->reaches);
+    crv__release(allocator, s, 1, sizeof *s);
+}
+
+static float radius_of_bits(uint32_t bucket)
+{
+    const uint32_t bits = bucket << CRV__FAST_SHIFT;
+    float radius;
+    memcpy(&radius, &bits, sizeof radius);
+    return radius;
+}
+
+/* The projected radius, before the phase's scale, in the middle of the depths that share
+ * this bucket. */
+static float radius_of(int32_t bucket)
+{
+    const uint32_t first = (uint32_t)(bucket + CRV__FAST_FIRST);
+    const float low = radius_of_bits(first), high = radius_of_bits(first + 1);
+    return 2 * low * high / (low + high);
+}
+
+/* Fills a sample and its place for the step (du, dv) in pixels from a pixel of phase px.
+ */
+static void fill_sample(const crv__fast *fast, const crv__params *p, int32_t px, float du,
+                        float dv, crv__fast_sample *sample, crv__fast_place *place)
+{
+    const float x = du * p->inv_fx, y = -dv * p->inv_fy;
+    const float squared = x * x + y * y, length = sqrtf(squared);
+    const float cosine = length > 0 ? x / length : 0, sine = length > 0 ? y / length : 0;
+    *sample = (crv__fast_sample){2 * x,
+                                 2 * y,
+                                 squared,
+                                 -2 * squared,
+                                 cosine,
+                                 sine,
+                                 cosine * cosine - sine * sine,
+                                 2 * cosine * sine};
+    *place = (crv__fast_place){{0, 0}, {CRV__FAST_OFF, CRV__FAST_OFF}, 0, 0};
+    if (!(fabsf(du) < CRV_MAX_SIZE && fabsf(dv) < CRV_MAX_SIZE))
+        return;
+    place->dv = (int16_t)dv;
+    for (int32_t side = 0; side < 2; side++) {
+        const int32_t column = px + (int32_t)(side ? -du : du);
+        const int32_t segment = column & (CRV__FAST_PHASES - 1);
+        const int32_t shift = (column - segment) / CRV__FAST_PHASES;
+        place->shift[side] = (int16_t)shift;
+        place->offset[side] = (int32_t)((side ? -place->dv : place->dv) * fast->pitch)
+                              + segment * fast->segment + shift;
+    }
+}
+
+static void extend(crv__fast_reach *reach, const crv__fast_place *place)
+{
+    const int16_t rows = (int16_t)(place->dv < 0 ? -place->dv : place->dv);
+    reach->rows = rows > reach->rows ? rows : reach->rows;
+    for (int32_t side = 0; side < 2; side++) {
+        const int16_t shift = place->shift[side];
+        reach->shift_min = shift < reach->shift_min ? shift : reach->shift_min;
+        reach->shift_max = shift > reach->shift_max ? shift : reach->shift_max;
+    }
+}
+
+/* The step to sample i of walk k in pixels, to the right and down, as the methods have
+ * it, or, without walks, to point i; radii in pixels. */
+static void step_to(const crv__fast_kind *kind, const crv__frame *f,
+                    const crv__noise_texel *noise, int32_t k, int32_t i, float radius_x,
+                    float radius_y, float step[2])
+{
+    const crv__params *p = f->params;
+    crv__vec2 to;
+    float t = 1;
+    if (kind->is_walk) {
+        to = crv__direction(f, noise, k);
+        t = ((float)i + 0.5f + 0.5f * noise->beta) / (float)p->steps;
+        if (p->spacing == CRV_SPACING_QUADRATIC)
+            t *= t;
+    } else {
+        to = crv__turned(noise, f->pattern[4 * i], f->pattern[4 * i + 1]);
+    }
+    step[0] = t * (to.x * radius_x);
+    step[1] = t * (-to.y * radius_y);
+    for (int32_t axis = 0; axis < 2; axis++)
+        step[axis] = kind->is_rounded ? rintf(step[axis]) : floorf(step[axis] + 0.5f);
+}
+
+/* One list: the samples of one bucket and phase. */
+static void fill_list(const fill_job *job, uint32_t index)
+{
+    crv__fast *fast = &job->state->fast;
+    const crv__fast_kind *kind = job->state->kind;
+    const crv__params *p = job->frame->params;
+    const int32_t phase = (int32_t)index % PHASES, px = phase % CRV__FAST_PHASES;
+    const crv__noise_texel *noise =
+        &job->frame->noise[phase / CRV__FAST_PHASES % p->noise_size * p->noise_size
+                           + px % p->noise_size];
+    const float radius = radius_of((int32_t)index / PHASES) / fast->scale[phase];
+    crv__fast_reach reach = {.radius = radius};
+    for (int32_t k = 0; k < fast->walks; k++) {
+        const size_t first =
+            ((size_t)index * (size_t)fast->walks + (size_t)k) * (size_t)fast->steps;
+        uint16_t count = 0;
+        for (int32_t i = 0; i < fast->steps; i++) {
+            float step[2];
+            step_to(kind, job->frame, noise, k,
+                    kind->is_walk ? i : i * (1 + fast->paired),
+                    radius * (p->fx * p->inv_fy), radius, step);
+            if (!kind->keeps_own && step[0] == 0 && step[1] == 0)
+                continue;
+            crv__fast_place *place = &fast->places[first + count];
+            fill_sample(fast, p, px, step[0], step[1], &fast->samples[first + count],
+                        place);
+            place->index = (int16_t)i;
+            extend(&reach, place);
+            count++;
+        }
+        fast->counts[(size_t)index * (size_t)fast->walks + (size_t)k] = count;
+    }
+    fast->reaches[index] = reach;
+}
+
+static void fill_bucket(void *data, uint32_t index)
+{
+    for (uint32_t i = 0; i < PHASES; i++)
+        fill_list(data, index * PHASES + i);
+}
+
+static void deal_rows(void *data, uint32_t index)
+{
+    enum { ROWS = 16 };
+    const fill_job *job = data;
+    const int32_t first = (int32_t)index * ROWS, height = job->frame->params->height;
+    for (int32_t y = first; y < first + ROWS && y < height; y++)
+        job->state->deal(job->frame, &job->state->fast, y);
+}
+
+const crv__fast *crv__fast_prepare(crv__fast_state *s, const crv__setup *setup,
+                                   const crv__frame *frame)
+{
+    const crv__params *p = frame->params;
+    fill_job job = {s, frame};
+    if (s->fx != p->fx || s->fy != p->fy) {
+        crv__run_parallel(setup->context, (uint32_t)s->fast.buckets, fill_bucket, &job);
+        s->fx = p->fx;
+        s->fy = p->fy;
+    }
+    s->fast.cap = !s->kind->is_walk ? INFINITY
+                  : p->fx > p->fy   ? p->max_radius_px * (p->fy / p->fx)
+                                    : p->max_radius_px;
+    s->fast.background = p->orthographic ? 1e18f : 1024 * p->radius * p->fy;
+    crv__run_parallel(setup->context, (uint32_t)(p->height + 15) / 16, deal_rows, &job);
+    return &s->fast;
+}
+
+crv__fast_kernel crv__fast_kernel_of(const crv__fast_state *s)
+{
+    return s->kind->run;
+}
+
+int crv__fast_is_beyond(const crv__fast *fast, const crv__params *p, float depth)
+{
+    const float radius = p->radius * p->fy;
+    return depth < fast->background
+           && !((p->orthographic ? radius : radius * (1 / depth)) < fast->largest);
+}

@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * core/depth.c, a row at a time. Loops that the compiler turns into vectors: in double
+ * precision as there, and to the bit the same. Conditions are joined with & rather than
+ * &&, which would be branches.
+ */
+#include "core/conversions.h"
+#include "core/frame.h"
+#include "cpu/simd/vector.h"
+
+enum { CHUNK = 256 };
+
+/* What crv__depth_map_apply() does last. */
+CRV__INLINE float checked(double depth)
+{
+    const float d = (float)depth;
+    return (d > 0) & (d < INFINITY) ? d : INFINITY;
+}
+
+static void planar(float background, const float *v, int32_t count, float *out)
+{
+    for (int32_t i = 0; i < count; i++)
+        out[i] = (v[i] < background) & (v[i] > 0) & (v[i] < INFINITY) ? v[i] : INFINITY;
+}
+
+static void radial(const crv__depth_map *map, const float *v, int32_t x, int32_t y,
+                   int32_t count, float *out)
+{
+    const double cx = (double)map->camera->cx_px, fx = (double)map->camera->fx_px;
+    const double w = (y + 0.5 - (double)map->camera->cy_px) / (double)map->camera->fy_px;
+    const float background = map->format.background;
+    for (int32_t i = 0; i < count; i++) {
+        const double u = (x + i + 0.5 - cx) / fx;
+        const float d = checked((double)v[i] / sqrt(1 + u * u + w * w));
+        out[i] = v[i] < background ? d : INFINITY;
+    }
+}
+
+CRV__INLINE void hardware(const crv__depth_map *map, const float *v, int32_t count,
+                          float *out, int orthographic)
+{
+    const float end = map->format.encoding == CRV_DEPTH_REVERSED ? 0 : 1;
+    const double a = map->a, b = map->b;
+    for (int32_t i = 0; i < count; i++) {
+        const double affine = a + b * (double)v[i];
+        const float d = checked(orthographic ? affine : 1 / affine);
+        out[i] = (v[i] != end) & (v[i] >= 0) & (v[i] <= 1) ? d : INFINITY;
+    }
+}
+
+static void hardware_perspective(const crv__depth_map *map, const float *v, int32_t count,
+                                 float *out)
+{
+    hardware(map, v, count, out, 0);
+}
+
+static void hardware_orthographic(const crv__depth_map *map, const float *v,
+                                  int32_t count, float *out)
+{
+    hardware(map, v, count, out, 1);
+}
+
+static void disparity(const float *v, int32_t count, float *out)
+{
+    for (int32_t i = 0; i < count; i++)
+        out[i] = checked(1 / (double)v[i]);
+}
+
+static void convert(const crv__depth_map *map, const float *v, int32_t x, int32_t y,
+                    int32_t count, float *out)
+{
+    const int orthographic = map->camera->projection == CRV_ORTHOGRAPHIC;
+    switch (map->format.encoding) {
+    case CRV_DEPTH_RADIAL:
+        if (!orthographic) {
+            radial(map, v, x, y, count, out);
+            break;
+        }
+        /* fall through */
+    case CRV_DEPTH_PLANAR:
+        planar(map->format.background, v, count, out);
+        break;
+    case CRV_DEPTH_HARDWARE:
+    case CRV_DEPTH_REVERSED:
+        (orthographic ? hardware_orthographic : hardware_perspective)(map, v, count, out);
+        break;
+    case CRV_DEPTH_DISPARITY:
+        disparity(v, count, out);
+        break;
+    }
+}
+
+void CRV__NAME(depth_row)(const crv__depth_map *map, const float *from, ptrdiff_t stride,
+                          int32_t y, int32_t count, float *out);
+void CRV__NAME(depth_row)(const crv__depth_map *map, const float *from, ptrdiff_t stride,
+                          int32_t y, int32_t count, float *out)
+{
+    float chunk[CHUNK];
+    for (int32_t x = 0; x < count; x += CHUNK) {
+        const int32_t n = count - x < CHUNK ? count - x : CHUNK;
+        const float *v = from + x * stride;
+        for (int32_t i = 0; i < n && stride != 1; i++)
+            chunk[i] = v[i * stride];
+        convert(map, stride == 1 ? v : chunk, x, y, n, out + x);
+    }
+}

@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The fast structure: what its kernels share with the backend.
+ *
+ * Pixels are dealt out to the 4x4 phases of the noise tile. All pixels of a phase share
+ * rotation and jitter, so once their projected radius is quantised, to buckets of a
+ * quarter of an octave, they share every sample's offset as well: offsets are scalars
+ * that stand in a table for each bucket and phase, and reading 16 samples is one load.
+ *
+ * Depth is stored by phases of x: each row is four segments, segment s holding the
+ * columns s, s + 4, s + 8, ... A group is 16 pixels of one phase in one row, that is, of
+ * 64 columns. Columns count from a multiple of 64 of the whole picture's, so that a crop
+ * deals its pixels out as the picture does.
+ */
+#ifndef CRV_CPU_KERNELS_FAST_H
+#define CRV_CPU_KERNELS_FAST_H
+
+#include "core/frame.h"
+
+enum {
+    CRV__FAST_PHASES = 4, /* along each axis */
+    CRV__FAST_GROUP = 16,
+    CRV__FAST_SPAN = CRV__FAST_PHASES * CRV__FAST_GROUP, /* columns of a group */
+    CRV__FAST_PADDING = 16,       /* floats of background at each end of a segment */
+    CRV__FAST_OFF = INT16_MAX,    /* a sample's shift: it is off every picture */
+    CRV__FAST_MOST_SAMPLES = 1024 /* in a list */
+};
+
+/* The direction to a sample, o = (x, y) the step on the image plane at unit depth
+ * (perspective) or in scene units (orthographic). */
+typedef struct crv__fast_sample {
+    float x2, y2;         /* 2 o */
+    float squared;        /* o.o */
+    float minus_squared2; /* -2 o.o */
+    float cosine, sine;   /* o / |o|; 0 where o is 0 */
+    float cosine2, sine2; /* of twice the angle */
+} crv__fast_sample;
+
+/* Where a sample and the one opposite to it are, from a pixel on. */
+typedef struct crv__fast_place {
+    int32_t offset[2]; /* floats from the pixel's place in segment 0 of its row */
+    int16_t shift[2];  /* of which so many along the segment */
+    int16_t dv;        /* rows down; the opposite one as many up */
+    int16_t index;     /* of the point in its pattern */
+} crv__fast_place;
+
+/* Over all samples of a list, opposite ones included. */
+typedef struct crv__fast_reach {
+    int16_t shift_min, shift_max, rows, unused;
+    float radius; /* projected, vertically, that the samples are spread over; pixels */
+} crv__fast_reach;
+
+/* What stands for no surface is finite, or it would spread as NaN, but farther from every
+ * surface with a bucket than the radius: 1024 times the depth at which the radius is a
+ * pixel; 1e18 where the camera is orthographic. Surfaces from there on count as
+ * background: their radius is a thousandth of a pixel, or of the rounding of their depth.
+ */
+typedef struct crv__fast {
+    /* depth by phases of x: layer, row, segment */
+    float *depth;
+    ptrdiff_t pitch, layer_pitch; /* floats */
+    int32_t segment, columns;     /* floats of a segment; of which hold pixels */
+    int32_t left, top;            /* column and row of the buffers' first pixel */
+    float background;             /* what stands for no surface: finite */
+
+    /* a list of samples for each bucket and phase: `walks` times at most `steps` */
+    int32_t buckets, walks, steps;
+    float cap;      /* of the radius, vertically, pixels */
+    float largest;  /* projected radius that has a bucket in every phase, pixels */
+    int32_t paired; /* 0 or 1: every walk has one opposite to it */
+    crv__fast_sample *samples;
+    crv__fast_place *places;
+    uint16_t *counts; /* samples in each walk */
+    crv__fast_reach *reaches;
+    float scale[CRV__FAST_PHASES * CRV__FAST_PHASES]; /* of a phase's radius */
+} crv__fast;
+
+/* The bucket of a projected radius in pixels (vertically, times the phase's scale) is its
+ * float's exponent and upper two bits of the mantissa, from this radius on. */
+#define CRV__FAST_SMALLEST 0.5f
+enum { CRV__FAST_SHIFT = 21, CRV__FAST_FIRST = 0x3f000000 >> CRV__FAST_SHIFT };
+
+/* Accessibility, as a crv__estimate_kernel computes it, of the groups that begin at
+ * columns first to last - 1 (in spans) of row y, all four phases of x; to out, `width`
+ * pixels from buffer column x0 on; nothing is written beside them. Returns whether some
+ * pixel's radius is beyond the table: such pixels hold rubbish. */
+typedef int (*crv__fast_kernel)(const crv__frame *frame, const crv__fast *fast, int32_t y,
+                                int32_t first, int32_t last, int32_t x0, int32_t width,
+                                float *out);
+
+/* Fills row y of fast->depth from all layers. */
+typedef void (*crv__fast_deal_kernel)(const crv__frame *frame, const crv__fast *fast,
+                                      int32_t y);
+
+#endif

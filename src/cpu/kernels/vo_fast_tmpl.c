@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: MIT */
+/* methods/vo.c in the fast structure. Lengths are in radii. */
+#include "cpu/kernels/groups.h"
+
+/* How far the surface is behind P's depth, at most the chord's half either way. */
+static inline __attribute__((always_inline)) vf behind(const crv__fast_pixels *at,
+                                                       vf depth, vf half, vf unit,
+                                                       int32_t orthographic)
+{
+    vf b;
+    if (orthographic) {
+        b = (depth - at->depth) * unit;
+    } else {
+        const vf ratio = depth * at->inverse;
+        b = vf_fma(depth, at->inverse, vf_set(-1)) * vf_rcp_rough(ratio) * unit;
+    }
+    b = vf_min(vf_max(b, vf_zero() - half), half);
+    return vf_select(vf_lt(depth, vf_set(at->fast->background)), b, half);
+}
+
+static inline __attribute__((always_inline)) vf sum_of_lines(const crv__fast_pixels *at,
+                                                             const crv__fast_list *list,
+                                                             int32_t orthographic,
+                                                             int32_t paired)
+{
+    const crv__params *p = at->frame->params;
+    const vf zero = vf_zero(), one = vf_set(1);
+    /* Radii to the unit of the offsets. */
+    const vf unit = vf_set(p->inv_radius) * (orthographic ? one : at->depth);
+    const vf unit2 = unit * unit;
+    vf sum = zero, total = zero;
+    for (int32_t i = 0; i < list->counts[0]; i++) {
+        const vf rest = vf_fma(vf_set(-list->samples[i].squared), unit2, one);
+        const vf half = vf_where(vf_lt(zero, rest), rest * vf_rsqrt_fair(rest));
+        const int32_t *offset = list->places[i].offset;
+        sum = sum
+              + behind(at, crv__fast_read(at->own + offset[0]), half, unit, orthographic);
+        if (paired)
+            sum = sum
+                  + behind(at, crv__fast_read(at->own + offset[1]), half, unit,
+                           orthographic);
+        total = total + half;
+    }
+    if (paired)
+        total = total + total;
+    return vf_select(vf_lt(zero, total), vf_min(one + sum / total, one), one);
+}
+
+static __attribute__((noinline)) vf common(const crv__fast_pixels *at,
+                                           const crv__fast_list *list)
+{
+    return sum_of_lines(at, list, 0, 1);
+}
+
+static __attribute__((noinline)) vf general(const crv__fast_pixels *at,
+                                            const crv__fast_list *list)
+{
+    return sum_of_lines(at, list, at->frame->params->orthographic, at->fast->paired);
+}
+
+static inline vf accessibility(const crv__fast_pixels *at, const crv__fast_list *list)
+{
+    return at->fast->paired && !at->frame->params->orthographic ? common(at, list)
+                                                                : general(at, list);
+}
+
+CRV__FAST_KERNEL(vo)

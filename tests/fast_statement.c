@@ -1,0 +1,336 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The scalar statement of the fast structure, written from its description: 16 pixels of
+ * a row, every fourth column of a span of 64, share a few buckets of projected radii,
+ * four an octave, of which one serves its neighbours. Else the methods are the scalar
+ * ones: where a radius is projected they use focal lengths, which nothing else of them
+ * reads, so that another radius is other focal lengths.
+ */
+#include "fast.h"
+
+#include "core/backend.h"
+#include "core/gbuffer.h"
+#include "core/noise.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double PI = 3.14159265358979323846;
+
+enum { LANES = 16, PHASES = 4, SPAN = LANES * PHASES, OCTAVES = 14 };
+
+typedef struct statement {
+    const simd_case *c;
+    crv__params params;
+    crv__frame frame;
+    crv__noise_texel noise[16];
+    float *directions, *pattern;
+    float background;  /* the depth from which on there is no surface */
+    int32_t left, top; /* of the buffers' first pixel in the picture's spans and phases */
+} statement;
+
+static int32_t wrapped(int32_t value, int32_t size)
+{
+    return (value % size + size) % size;
+}
+
+static int is_surface(const statement *s, int32_t x, int32_t y)
+{
+    return x >= 0 && x < s->params.width
+           && *crv__plane_at(&s->frame.depth[0], x, y) < s->background;
+}
+
+/* What the radii of a phase are multiplied with before they are sorted into buckets. */
+static float scale_of(int32_t px, int32_t py)
+{
+    static const int RANK[4][4] = {
+        {0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
+    return exp2f(0.25f * (((float)RANK[py][px] + 0.5f) / 16 - 0.5f));
+}
+
+/* The vertical projected radius in pixels. */
+static float radius_at(const statement *s, int32_t x, int32_t y)
+{
+    const crv__params *p = &s->params;
+    const float d = *crv__plane_at(&s->frame.depth[0], x, y);
+    return p->radius * p->fy * (p->orthographic ? 1 : 1 / d);
+}
+
+/* Buckets begin at 1, 1.25, 1.5 and 1.75 times powers of two, the first at 1/2. -1: no
+ * surface, or beyond all. */
+static int32_t bucket_at(const statement *s, int32_t x, int32_t y)
+{
+    const crv__params *p = &s->params;
+    const int is_walk = strcmp(s->c->options.method->name, "hbao") == 0;
+    if (!is_surface(s, x, y))
+        return -1;
+    float radius = radius_at(s, x, y);
+    if (!(radius < 0.5f * (1 << OCTAVES) * exp2f(-0.125f) * 0.99f))
+        return -1;
+    if (is_walk) {
+        const float cap =
+            p->fx > p->fy ? p->max_radius_px * (p->fy / p->fx) : p->max_radius_px;
+        radius = fminf(radius, cap);
+    }
+    radius =
+        fmaxf(radius * scale_of((x + s->left) % PHASES, (y + s->top) % PHASES), 0.5f);
+    int exponent;
+    const float mantissa = 2 * frexpf(radius, &exponent);
+    return 4 * exponent + (int32_t)((mantissa - 1) * 4);
+}
+
+/* The bucket that serves the pixel: of the group's buckets in rising order, the lowest
+ * and the two above it share one; of three the middle one, of two that of more pixels. */
+static int32_t serving_bucket(const statement *s, int32_t x, int32_t y)
+{
+    const int32_t own = bucket_at(s, x, y);
+    const int32_t column = x + s->left, first = column / SPAN * SPAN + column % PHASES;
+    int32_t buckets[LANES], low = -1;
+    for (int32_t i = 0; i < LANES; i++)
+        buckets[i] = bucket_at(s, first + i * PHASES - s->left, y);
+    do {
+        int32_t next = INT32_MAX, counts[3] = {0};
+        for (int32_t i = 0; i < LANES; i++) {
+            if (buckets[i] > low && buckets[i] < next)
+                next = buckets[i];
+        }
+        for (int32_t i = 0; i < LANES; i++) {
+            if (buckets[i] >= next && buckets[i] <= next + 2)
+                counts[buckets[i] - next]++;
+        }
+        low = next + 2;
+        if (own <= low)
+            return counts[2] || counts[1] > counts[0] ? next + 1 : next;
+    } while (1);
+}
+
+/* The radius of the middle depth of a bucket. */
+static float radius_of(int32_t bucket)
+{
+    const float octave = exp2f((float)(bucket / 4 - 1));
+    const float low = octave * (1 + (float)(bucket % 4) / 4),
+                high = octave * (1 + (float)(bucket % 4 + 1) / 4);
+    return 2 * low * high / (low + high);
+}
+
+/* methods/vo.c, with lines where another radius puts them. */
+static float vo(const statement *s, int32_t x, int32_t y, float radius)
+{
+    const crv__params *p = &s->params;
+    const crv__noise_texel *noise = crv__noise_at(&s->frame, x, y);
+    const float d = *crv__plane_at(&s->frame.depth[0], x, y);
+    const float unit = p->orthographic ? 1 : d;
+    float open = 0, total = 0;
+    for (int32_t i = 0; i < p->samples; i++) {
+        const crv__vec2 disk =
+            crv__turned(noise, s->pattern[4 * i], s->pattern[4 * i + 1]);
+        const float du = rintf(disk.x * (radius * (p->fx * p->inv_fy))),
+                    dv = rintf(-disk.y * radius);
+        const float across = du * p->inv_fx * unit, up = dv * p->inv_fy * unit;
+        const float rest = p->radius * p->radius - across * across - up * up;
+        if (!(rest > 0))
+            continue;
+        const float half = sqrtf(rest);
+        total += 2 * half;
+        const float u = (float)x + du, v = (float)y + dv;
+        float z = INFINITY;
+        if (u >= 0 && v >= 0 && u < (float)p->width && v < (float)p->height)
+            z = *crv__plane_at(&s->frame.depth[0], (int32_t)u, (int32_t)v);
+        if (z < s->background)
+            open +=
+                fminf(fmaxf(p->orthographic ? z - d : d - d * d / z, -half), half) + half;
+        else
+            open += 2 * half;
+    }
+    return total > 0 ? fminf(1, 2 * open / total) : 1;
+}
+
+/* The scalar method where the vertical projected radius is another one. */
+static float with_radius(statement *s, int32_t x, int32_t y, float radius)
+{
+    crv__params *p = &s->params;
+    const crv__params kept = *p;
+    const float d = *crv__plane_at(&s->frame.depth[0], x, y);
+    p->fx = radius * (kept.fx * kept.inv_fy) * (p->orthographic ? 1 : d) / p->radius;
+    p->fy = radius * (p->orthographic ? 1 : d) / p->radius;
+    p->max_radius_px = INFINITY;
+    const float a = crv__method_of(s->c->options.method)->accessibility(&s->frame, x, y);
+    *p = kept;
+    return a;
+}
+
+/* methods/alchemy.c: so many of its points stand for the disk of another radius. */
+static float alchemy(statement *s, int32_t x, int32_t y, float radius)
+{
+    crv__params *p = &s->params;
+    const float true_radius = radius_at(s, x, y), ratio = radius / true_radius;
+    const float largest = true_radius * fmaxf(1, p->fx * p->inv_fy);
+    const float band = ceilf((float)p->bands * largest / p->band_px);
+    const int32_t used = (int32_t)fmaxf(fminf(band, (float)p->bands), 1);
+    const crv__params kept = *p;
+    p->samples = (p->samples * used + p->bands - 1) / p->bands;
+    p->bands = 1;
+    const float a = with_radius(s, x, y, radius);
+    *p = kept;
+    return 1 - (1 - a) * ratio * ratio;
+}
+
+/* Whether plans like this one have the fast structure: see crv__fast_create(). */
+static int has_structure(const simd_case *c)
+{
+    const crv_options *o = &c->options;
+    const int is_walk = strcmp(o->method->name, "hbao") == 0;
+    const int32_t samples = is_walk ? o->directions * o->steps : o->samples;
+    const int paired = strcmp(o->method->name, "alchemy") != 0
+                       && (is_walk ? o->directions : o->samples) % 2 == 0;
+    const double table = 48.0 * samples / (1 + paired) * 16 * OCTAVES * 4;
+    return (o->noise_size == 1 || o->noise_size == 2 || o->noise_size == 4)
+           && c->desc.layers <= (crv__method_of(o->method)->volumetric ? 1 : 3)
+           && table <= (2 << 20); /* more only where the picture is large */
+}
+
+static float value_at(statement *s, int32_t x, int32_t y, int structure, int *has_bucket)
+{
+    const char *name = s->c->options.method->name;
+    float a = 1;
+    *has_bucket = 0;
+    if (is_surface(s, x, y)) {
+        *has_bucket = structure && bucket_at(s, x, y) >= 0;
+        const float radius =
+            *has_bucket ? radius_of(serving_bucket(s, x, y))
+                              / scale_of((x + s->left) % PHASES, (y + s->top) % PHASES)
+                        : 0;
+        if (!*has_bucket)
+            a = crv__method_of(s->c->options.method)->accessibility(&s->frame, x, y);
+        else if (strcmp(name, "vo") == 0)
+            a = vo(s, x, y, radius);
+        else
+            a = strcmp(name, "hbao") == 0 ? with_radius(s, x, y, radius)
+                                          : alchemy(s, x, y, radius);
+    }
+    const crv_options *o = &s->c->options;
+    return powf(fminf(fmaxf(1 - o->intensity * (1 - a), 0), 1), o->contrast);
+}
+
+/* The members of params that are not the G-buffer's, as a plan fills them. */
+static void fill_params(statement *s)
+{
+    const crv_options *o = &s->c->options;
+    const crv_gbuffer_desc *d = &s->c->desc;
+    crv__params *p = &s->params;
+    *p =
+        (crv__params){.radius = o->radius,
+                      .inv_radius = 1 / o->radius,
+                      .falloff = (int32_t)o->falloff,
+                      .tau = o->tau,
+                      .u = o->u,
+                      .max_radius_px = o->max_radius_px > 0 ? o->max_radius_px : INFINITY,
+                      .directions = o->directions,
+                      .steps = o->steps,
+                      .sin_bias = (float)sin((double)o->bias_deg * PI / 180),
+                      .cos_bias = (float)cos((double)o->bias_deg * PI / 180),
+                      .attenuation = (int32_t)o->attenuation,
+                      .noise_size = o->noise_size,
+                      .noise_x = wrapped(d->origin_x - d->guard_left, o->noise_size),
+                      .noise_y = wrapped(d->origin_y - d->guard_top, o->noise_size),
+                      .layers_solid = d->layer_kind == CRV_LAYERS_SOLID,
+                      .samples = o->samples,
+                      .bands = o->bands,
+                      .band_px = o->band_px,
+                      .alchemy_bias = o->alchemy_bias,
+                      .alchemy_eps = o->alchemy_eps,
+                      .spacing = (int32_t)o->spacing,
+                      .use_depth = 1};
+}
+
+static int fill_patterns(statement *s)
+{
+    const crv_options *o = &s->c->options;
+    const crv__method *method = crv__method_of(o->method);
+    uint32_t scratch[16];
+    s->directions = malloc((size_t)o->directions * 2 * sizeof(float));
+    s->pattern = calloc((size_t)o->samples, 4 * sizeof(float));
+    if (!s->directions || !s->pattern)
+        return 0;
+    for (int32_t k = 0; k < o->directions; k++) {
+        s->directions[2 * k] = (float)cos(2 * PI * k / o->directions);
+        s->directions[2 * k + 1] = (float)sin(2 * PI * k / o->directions);
+    }
+    if (method->pattern_fill)
+        method->pattern_fill(o, s->pattern);
+    crv__noise_fill(s->noise, o->noise_size,
+                    method->pattern_fill ? 2 * PI : 2 * PI / o->directions, o->seed,
+                    scratch);
+    return 1;
+}
+
+static crv_gbuffer *make_gbuffer(const simd_case *c, crv_context *context)
+{
+    crv_gbuffer *g = NULL;
+    int bad = crv_gbuffer_create(context, &c->desc, &g)
+              || crv_gbuffer_set_camera(g, &c->camera);
+    for (int32_t i = 0; !bad && i < c->desc.layers; i++) {
+        const crv_image depth =
+            crv_image_packed(c->depth[i], c->desc.width, c->desc.height, 1);
+        bad = crv_gbuffer_set_depth(g, i, &depth, NULL) != CRV_OK;
+    }
+    if (!bad && c->normals) {
+        const crv_image normals =
+            crv_image_packed(c->normals, c->desc.width, c->desc.height, 3);
+        bad = crv_gbuffer_set_normals(g, &normals, CRV_NORMAL_VIEW) != CRV_OK;
+    }
+    if (!bad && crv__gbuffer_prepare(g) == CRV_OK)
+        return g;
+    crv_gbuffer_destroy(g);
+    return NULL;
+}
+
+static void fill_result(statement *s, float *out, int32_t *structured)
+{
+    const crv_gbuffer_desc *d = &s->c->desc;
+    const int structure = has_structure(s->c);
+    const crv__params *p = &s->params;
+    s->background = !structure        ? INFINITY
+                    : p->orthographic ? 1e18f
+                                      : 1024 * p->radius * p->fy;
+    *structured = 0;
+    for (int32_t y = d->guard_top; y < d->height - d->guard_bottom; y++) {
+        for (int32_t x = d->guard_left; x < d->width - d->guard_right; x++) {
+            int has_bucket;
+            *out++ = value_at(s, x, y, structure, &has_bucket);
+            *structured += has_bucket;
+        }
+    }
+}
+
+float *fast_statement(const simd_case *c, int32_t *structured)
+{
+    const crv_gbuffer_desc *d = &c->desc;
+    statement s = {.c = c,
+                   .left = wrapped(d->origin_x - d->guard_left, SPAN),
+                   .top = wrapped(d->origin_y - d->guard_top, PHASES)};
+    crv_context *context = NULL;
+    float *out = malloc((size_t)d->width * (size_t)d->height * sizeof *out);
+    crv_gbuffer *g =
+        crv_context_create(NULL, &context) == CRV_OK ? make_gbuffer(c, context) : NULL;
+    *structured = 0;
+    if (out && g && c->options.noise_size <= 4) {
+        fill_params(&s);
+        crv__gbuffer_params(g, &s.params);
+        if (fill_patterns(&s)) {
+            s.frame = (crv__frame){.params = &s.params,
+                                   .depth = g->depth,
+                                   .normal = g->normal,
+                                   .noise = s.noise,
+                                   .directions = s.directions,
+                                   .pattern = s.pattern};
+            fill_result(&s, out, structured);
+        }
+    }
+    free(s.directions);
+    free(s.pattern);
+    crv_gbuffer_destroy(g);
+    crv_context_destroy(context);
+    return out;
+}

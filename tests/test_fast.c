@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The fast structure: every instruction set against its scalar statement, on random and
+ * pathological data between guard bytes; and against the exact structure, of which it is
+ * another draw.
+ */
+#include "fast.h"
+#include "fixture.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char *const METHODS[] = {"hbao", "alchemy", "vo"};
+
+enum { CASES = 60, SIZE = 150, SETS = 5 };
+
+/* Runs a case with noise tiles that the structure takes. */
+static simd_case *make_case(const char *method, int32_t index)
+{
+    simd_random r =
+        simd_random_make(1, (uint64_t)(method[0] + 256 * method[1]), (uint64_t)index);
+    simd_case *c = simd_case_make(&r, crv_method_find(method), NULL, 0, SIZE,
+                                  (simd_scene)(index % SIMD_SCENES));
+    assert_non_null(c);
+    static const int32_t TILES[] = {4, 4, 2, 1};
+    c->options.noise_size = TILES[index / SIMD_SCENES % 4];
+    if (c->desc.layers > 3 || (strcmp(method, "vo") == 0 && index % 3))
+        c->desc.layers = 1; /* others are computed exactly */
+    c->exact = 0;
+    return c;
+}
+
+/*
+ * Reciprocals and roots of at least 11 bits in sums of weights of one: 4e-4. More than
+ * 1e-3 is a sample on the other side of a limit, or a tie of two texels rounded the other
+ * way, as in the test of the exact kernels; the statement gets at its radius by way of a
+ * focal length, which moves samples by a rounding, so that there are a few more.
+ */
+static const double TOLERANCE = 1e-3, SHARE = 3e-4;
+
+static int32_t count_beyond(const float *a, const float *b, int32_t count,
+                            double tolerance)
+{
+    int32_t beyond = 0;
+    for (int32_t i = 0; i < count; i++)
+        beyond += !(fabs((double)a[i] - (double)b[i]) <= tolerance);
+    return beyond;
+}
+
+static void sets_compute_the_statement(void **state)
+{
+    (void)state;
+    for (int m = 0; m < 3; m++) {
+        int64_t pixels = 0, structured = 0, beyond[SETS] = {0};
+        for (int32_t i = 0; i < CASES; i++) {
+            simd_case *c = make_case(METHODS[m], i);
+            const crv_gbuffer_desc *d = &c->desc;
+            const int32_t count = (d->width - d->guard_left - d->guard_right)
+                                  * (d->height - d->guard_top - d->guard_bottom);
+            int32_t with_bucket;
+            float *expected = fast_statement(c, &with_bucket);
+            assert_non_null(expected);
+            for (int isa = 1; isa < SETS; isa++) {
+                if (!(crv_isa_available() >> isa & 1))
+                    continue;
+                float *got = simd_run(c, (crv_isa)isa);
+                assert_non_null(got);
+                const int32_t over = count_beyond(got, expected, count, TOLERANCE);
+                if (over > 2 + count / 200) {
+                    printf("%s, %s, case %d: %d of %d px\n", METHODS[m],
+                           crv_isa_name((crv_isa)isa), i, over, count);
+                    simd_case_print(c);
+                }
+                beyond[isa] += over;
+                free(got);
+            }
+            pixels += count;
+            structured += with_bucket;
+            free(expected);
+            simd_case_free(c);
+        }
+        for (int isa = 1; isa < SETS; isa++) {
+            printf("%s %s: %lld of %lld px beyond %g, %lld in buckets\n", METHODS[m],
+                   crv_isa_name((crv_isa)isa), (long long)beyond[isa], (long long)pixels,
+                   TOLERANCE, (long long)structured);
+            assert_true((double)beyond[isa] <= SHARE * (double)pixels + 1);
+        }
+        assert_true(structured > pixels / 4); /* or nothing was tested */
+    }
+}
+
+static float *compute(const fixture *f, const crv_options *options, int32_t exact)
+{
+    return fixture_compute(f, options, &(fixture_run){.exact = exact});
+}
+
+/* Both draws of a smooth scene have the same mean: their pixels' difference is noise. */
+static void the_mean_is_the_exact_one(void **state)
+{
+    (void)state;
+    enum { WIDTH = 640, HEIGHT = 360 };
+    static const double ONE = 1;
+    const crv_camera camera = crv_camera_perspective(WIDTH, HEIGHT, 0.8f);
+    fixture f = fixture_make(fixture_spheres, &ONE, &camera, WIDTH, HEIGHT);
+    for (int m = 0; m < 3; m++) {
+        crv_options options = fixture_options(METHODS[m]);
+        options.filter = NULL;
+        options.radius = 0.7f;
+        float *exact = compute(&f, &options, 1), *fast = compute(&f, &options, 0);
+        double sum = 0, squares = 0;
+        for (int32_t i = 0; i < WIDTH * HEIGHT; i++) {
+            const double difference = (double)fast[i] - (double)exact[i];
+            sum += difference;
+            squares += difference * difference;
+        }
+        const double rms = sqrt(squares / (WIDTH * HEIGHT)),
+                     bias = sum / (WIDTH * HEIGHT);
+        printf("%s: fast - exact: mean %+.5f, rms %.5f\n", METHODS[m], bias, rms);
+        assert_true(rms > 1e-3); /* it is another draw */
+        /* Neighbours of a tile share their samples: 16 draws for each of some hundred
+         * places; a twentieth of the noise, and no step to be seen in 8 bits. */
+        assert_true(fabs(bias) < fmin(0.05 * rms + 2e-4, 0.002));
+        free(exact);
+        free(fast);
+    }
+    fixture_free(&f);
+}
+
+static void many_samples_converge_to_the_exact_value(void **state)
+{
+    (void)state;
+    enum { EDGE = 640 }; /* for tables of so many samples the picture must be large */
+    static const double GROOVE[] = {5};
+    const crv_camera camera = crv_camera_orthographic(EDGE, EDGE, 4);
+    fixture f = fixture_make(fixture_groove, GROOVE, &camera, EDGE, EDGE);
+    for (int m = 0; m < 3; m++) {
+        crv_options options = fixture_options(METHODS[m]);
+        options.filter = NULL;
+        options.radius = 1;
+        options.directions = 16;
+        options.steps = 16;
+        options.samples = 140;
+        float *exact = compute(&f, &options, 1), *fast = compute(&f, &options, 0);
+        double squares = 0;
+        for (int32_t i = 0; i < EDGE * EDGE; i++)
+            squares += pow((double)fast[i] - (double)exact[i], 2);
+        const double rms = sqrt(squares / (EDGE * EDGE));
+        printf("%s: groove, many samples: RMS difference %.4f\n", METHODS[m], rms);
+        free(exact);
+        free(fast);
+        /* Independent points in [0, 1] err by 1/sqrt(4 n) at most, 0.042 (2010); patterns
+         * that are well spread by less than half of it. */
+        assert_true(rms > 0 && rms < 0.021);
+    }
+    fixture_free(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sets_compute_the_statement),
+        cmocka_unit_test(the_mean_is_the_exact_one),
+        cmocka_unit_test(many_samples_converge_to_the_exact_value),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

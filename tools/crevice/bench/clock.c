@@ -1,0 +1,216 @@
+/* SPDX-License-Identifier: MIT */
+#define _GNU_SOURCE
+
+#include "bench/clock.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#ifdef __linux__
+#include <linux/perf_event.h>
+#include <sys/syscall.h>
+#endif
+
+#include "report.h"
+
+enum { RUNS_MAX = 512, RUNS_FEW = 3 };
+#define SHORT_SECONDS 0.1
+
+#ifdef __linux__
+static int open_counter(void)
+{
+    struct perf_event_attr what;
+
+    memset(&what, 0, sizeof what);
+    what.size = sizeof what;
+    what.type = PERF_TYPE_HARDWARE;
+    what.config = PERF_COUNT_HW_CPU_CYCLES;
+    what.exclude_kernel = 1;
+    what.exclude_hv = 1;
+    what.inherit = 1;
+    return (int)syscall(SYS_perf_event_open, &what, 0, -1, -1, 0UL);
+}
+#else
+static int open_counter(void)
+{
+    return -1;
+}
+#endif
+
+static double read_counter(const bench_clock *c)
+{
+    uint64_t value = 0;
+
+    if (c->counter < 0 || read(c->counter, &value, sizeof value) != sizeof value)
+        return NAN;
+    return (double)value;
+}
+
+static double cpu_seconds(void)
+{
+    struct timespec now = {0};
+
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* An addition that waits for the one before takes one cycle on every processor of note.
+ */
+#if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__))
+#ifdef __x86_64__
+#define ADD "add %1, %0\n\t"
+#else
+#define ADD "add %0, %0, %1\n\t"
+#endif
+static double measure_ghz(void)
+{
+    enum { ROUNDS = 200000, CHAIN = 16, TRIES = 8 };
+    double best = INFINITY;
+    uint64_t sum = 0, step = 3;
+
+    for (int i = 0; i < TRIES; i++) {
+        double start = cpu_seconds(), time;
+        for (int k = 0; k < ROUNDS; k++)
+            __asm__ volatile(
+                ADD ADD ADD ADD ADD ADD ADD ADD ADD ADD ADD ADD ADD ADD ADD ADD
+                : "+r"(sum)
+                : "r"(step));
+        time = cpu_seconds() - start;
+        best = time < best ? time : best;
+    }
+    return best > 0.0 ? 1e-9 * ROUNDS * CHAIN / best : 0.0;
+}
+#else
+static double measure_ghz(void)
+{
+    return 0.0;
+}
+#endif
+
+void bench_clock_open(bench_clock *c, int32_t repeats, double seconds)
+{
+    *c = (bench_clock){.counter = open_counter(),
+                       .ghz = measure_ghz(),
+                       .repeats = repeats < RUNS_MAX ? repeats : RUNS_MAX,
+                       .seconds = seconds};
+    if (isnan(read_counter(c)))
+        bench_clock_close(c);
+}
+
+void bench_clock_close(bench_clock *c)
+{
+    if (c->counter >= 0)
+        close(c->counter);
+    c->counter = -1;
+}
+
+const char *bench_clock_source(const bench_clock *c)
+{
+    return c->counter >= 0 ? "counter" : c->ghz > 0.0 ? "clock" : "none";
+}
+
+static int compare_doubles(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+
+    return (x > y) - (x < y);
+}
+
+/* Of sorted values; between two it is interpolated. */
+static double quantile(const double *sorted, int32_t count, double share)
+{
+    double at = share * (count - 1);
+    int32_t below = (int32_t)at, above = below + 1 < count ? below + 1 : below;
+
+    return sorted[below] + (at - below) * (sorted[above] - sorted[below]);
+}
+
+double bench_median(double *values, int32_t count)
+{
+    qsort(values, (size_t)count, sizeof *values, compare_doubles);
+    return quantile(values, count, 0.5);
+}
+
+typedef struct sample {
+    double seconds, cpu, cycles;
+} sample;
+
+static bool take(const bench_clock *c, bool (*run)(void *data), void *data, sample *out)
+{
+    double cycles = read_counter(c), cpu = cpu_seconds(), start = report_seconds();
+    bool good = run(data);
+
+    out->seconds = report_seconds() - start;
+    out->cpu = cpu_seconds() - cpu;
+    out->cycles = read_counter(c) - cycles;
+    return good;
+}
+
+static void summarise(const sample *samples, int32_t count, bench_time *out)
+{
+    double values[RUNS_MAX];
+
+    for (int32_t i = 0; i < count; i++)
+        values[i] = 1e3 * samples[i].cpu;
+    out->cpu_ms = bench_median(values, count);
+    for (int32_t i = 0; i < count; i++)
+        values[i] = samples[i].cycles;
+    out->cycles = isnan(values[0]) ? NAN : bench_median(values, count);
+    for (int32_t i = 0; i < count; i++)
+        values[i] = 1e3 * samples[i].seconds;
+    out->ms = bench_median(values, count);
+    out->runs = count;
+    out->ms_min = values[0];
+    out->ms_q1 = quantile(values, count, 0.25);
+    out->ms_q3 = quantile(values, count, 0.75);
+    out->ms_max = values[count - 1];
+}
+
+static bool is_enough(const bench_clock *c, int32_t count, double total)
+{
+    return count == RUNS_MAX || (count >= c->repeats && total >= SHORT_SECONDS)
+           || (count >= RUNS_FEW && total >= c->seconds);
+}
+
+bool bench_time_runs(const bench_clock *c, bool (*run)(void *data), void *data,
+                     bench_time *out)
+{
+    sample samples[RUNS_MAX];
+    int32_t count = 0;
+
+    if (!take(c, run, data, &samples[0]))
+        return false;
+    if (samples[0].seconds >= 0.5 * c->seconds) {
+        summarise(samples, 1, out);
+        return true;
+    }
+    for (double total = 0.0; !is_enough(c, count, total); count++) {
+        if (!take(c, run, data, &samples[count]))
+            return false;
+        total += samples[count].seconds;
+    }
+    summarise(samples, count, out);
+    return true;
+}
+
+bool bench_time_difference(const bench_clock *c, bool (*run)(void *data), void *more,
+                           void *less, bench_time *out)
+{
+    sample samples[RUNS_MAX], a, b;
+    int32_t count = 0;
+
+    if (!run(more) || !run(less))
+        return false;
+    for (double total = 0.0; !is_enough(c, count, total); count++) {
+        if (!take(c, run, more, &a) || !take(c, run, less, &b))
+            return false;
+        total += a.seconds + b.seconds;
+        samples[count] =
+            (sample){a.seconds - b.seconds, a.cpu - b.cpu, a.cycles - b.cycles};
+    }
+    summarise(samples, count, out);
+    return true;
+}
