@@ -49,7 +49,8 @@ if(Vulkan_FOUND)
         crevice_test(${test} SOURCES ${test}.c vulkan_engine.c
                 ${PROJECT_SOURCE_DIR}/examples/vulkan_host_setup.c
             LIBS crevice_fixture Vulkan::Vulkan)
-        set_tests_properties(${test} PROPERTIES LABELS vulkan SKIP_RETURN_CODE 77)
+        set_tests_properties(${test} PROPERTIES
+            LABELS vulkan TIMEOUT 600 SKIP_RETURN_CODE 77)
     endforeach()
 endif()
 
