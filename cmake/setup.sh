@@ -16,11 +16,16 @@ pkg-config  pkg-config
 -           libopenexr-dev
 -           libpng-dev
 -           libcjson-dev
+-           libvulkan-dev
+glslangValidator  glslang-tools
 '
 needs_tests='
 g++         g++
 python3     python3
+spirv-val   spirv-tools
 -           libcmocka-dev
+-           mesa-vulkan-drivers
+-           vulkan-validationlayers
 '
 needs_checks='
 clang            clang

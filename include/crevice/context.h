@@ -130,6 +130,25 @@ CRV_API crv_status crv_plan_run(crv_plan *plan, crv_gbuffer *gbuffer,
 CRV_API crv_status crv_plan_filter(crv_plan *plan, crv_gbuffer *gbuffer,
                                    const crv_image *input, const crv_image *result);
 
+/* The time that a step of a run took on the device. */
+typedef struct crv_device_time {
+    const char *name; /* "upload", the method's or filter's name, "download"; static */
+    double time_ms;
+    double
+        bytes; /* that must move at least: images read and written, each counted once */
+} crv_device_time;
+
+#define CRV_MAX_DEVICE_TIMES 8
+
+/*
+ * The steps of the plan's last run by the device's own clock. times: room for
+ * CRV_MAX_DEVICE_TIMES; *count says how many were written. Errors: INVALID_ARGUMENT;
+ * NOT_READY before the first run; UNSUPPORTED on the CPU, or where the device has no
+ * timestamps.
+ */
+CRV_API crv_status crv_plan_device_times(const crv_plan *plan, crv_device_time *times,
+                                         int32_t *count);
+
 /* The most subpixel samples that crv_multisample_gather() takes. */
 #define CRV_MAX_SUBSAMPLES 16
 

@@ -154,9 +154,10 @@ typedef struct crv_vulkan_frame {
     crv_depth_format depth_encoding;        /* default planar */
     crv_vulkan_input depth[CRV_MAX_LAYERS]; /* as many as the G-buffer has layers */
     crv_vulkan_input normals;               /* where desc.normals is not NONE */
-    VkImage result;                         /* one layer and level, of the size inside the
-                                             guard band: a view cannot be asked, so none is checked */
-    VkImageView result_view;                /* of it, 2D, storage usage */
+    /* One layer and level, of the size inside the guard band: none of it is checked,
+     * since neither image nor view can be asked. */
+    VkImage result;
+    VkImageView result_view; /* of it, 2D, storage usage */
     /* The layout that the result gets; what it held is discarded. Default
      * SHADER_READ_ONLY_OPTIMAL. */
     VkImageLayout result_layout;

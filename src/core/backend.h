@@ -54,6 +54,9 @@ struct crv__backend {
      * nothing. */
     crv_status (*run)(const crv__work *work, int filter_only, const crv__plane planes[2],
                       const crv__plane **result);
+    /* The last run's, see crv_plan_device_times(); NULL: there are none. */
+    crv_status (*times)(const crv__setup *setup, const void *state,
+                        crv_device_time *times, int32_t *count);
     void (*close)(crv_context *context); /* its device; NULL: nothing to do */
 };
 

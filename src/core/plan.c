@@ -340,3 +340,18 @@ crv_status crv_plan_filter(crv_plan *plan, crv_gbuffer *gbuffer, const crv_image
     crv__run_rows(plan->context, job.to->height, take_row, &job);
     return finish(plan, &frame, 1, result);
 }
+
+crv_status crv_plan_device_times(const crv_plan *plan, crv_device_time *times,
+                                 int32_t *count)
+{
+    if (!plan)
+        return CRV_ERROR_INVALID_ARGUMENT;
+    const crv__backend *backend = plan->context->backend;
+    if (!times || !count)
+        return crv__fail(&plan->context->logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "plan: times or count is NULL");
+    if (!backend->times)
+        return crv__fail(&plan->context->logger, CRV_ERROR_UNSUPPORTED,
+                         "plan: %s has no clock of its own", backend->name);
+    return backend->times(&plan->setup, plan->state, times, count);
+}

@@ -12,6 +12,7 @@ typedef struct plan_state {
     VkCommandPool pool;
     VkCommandBuffer commands;
     VkFence fence;
+    int filter_only; /* what was run last */
 } plan_state;
 
 /* Where things lie in the staging buffer. */
@@ -71,9 +72,9 @@ static crv_status plan_create(const crv__setup *setup, const crv__plane *rectang
                               void **out)
 {
     static const crv__program_desc PROGRAM = {.edge = 1};
-    static const crv__slot_desc SLOT = {VK_FORMAT_R32G32B32A32_SFLOAT,
-                                        VK_FORMAT_R32_SFLOAT, 0};
     const crv__device *d = crv__device_of(setup->context);
+    const crv__slot_desc slot = {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R32_SFLOAT,
+                                 d->timestamp_bits > 0};
     (void)rectangle; /* the setup's own */
     if (!d->queue)
         return crv__fail(&d->logger, CRV_ERROR_INVALID_ARGUMENT,
@@ -86,7 +87,7 @@ static crv_status plan_create(const crv__setup *setup, const crv__plane *rectang
         return crv__fail(&d->logger, CRV_ERROR_OUT_OF_MEMORY, "plan: out of memory");
     status = crv__program_create(&state->program, d, setup, &PROGRAM);
     if (status == CRV_OK)
-        status = crv__slot_create(&state->slot, &state->program, setup, &SLOT);
+        status = crv__slot_create(&state->slot, &state->program, setup, &slot);
     if (status == CRV_OK)
         status = crv__buffer_create(&state->staging, d, layout_of(setup).size,
                                     VK_BUFFER_USAGE_TRANSFER_SRC_BIT
@@ -174,6 +175,7 @@ static void record_upload(const crv__work *work, plan_state *state, int filter_o
                                    state->slot.accessibility[0].image,
                                    VK_IMAGE_LAYOUT_GENERAL, 1, &estimate);
     crv__record_barrier(d, state->commands, CRV__COPIED_TO, CRV__SAMPLED);
+    crv__slot_record_time(&state->slot, state->commands);
 }
 
 /* Runs the passes; the index of the image that holds the outcome. */
@@ -189,9 +191,11 @@ static int32_t record_passes(plan_state *state, int filter_only)
                       .out_y = r->y,
                       .out_width = r->width,
                       .out_height = r->height};
-    if (!filter_only)
+    if (!filter_only) {
         crv__slot_record_step(&state->slot, state->commands, &state->program.estimate,
                               state->slot.estimate_set, &push);
+        crv__slot_record_time(&state->slot, state->commands);
+    }
     for (push.pass = 0; push.pass < state->program.passes; push.pass++) {
         crv__record_barrier(d, state->commands, CRV__WRITTEN,
                             (crv__access){CRV__SAMPLED.stages,
@@ -199,6 +203,7 @@ static int32_t record_passes(plan_state *state, int filter_only)
         crv__slot_record_step(&state->slot, state->commands,
                               &state->program.filter[push.pass],
                               state->slot.filter_set[push.pass], &push);
+        crv__slot_record_time(&state->slot, state->commands);
     }
     return state->program.passes % 2;
 }
@@ -220,6 +225,8 @@ static void record(const crv__work *work, plan_state *state, int filter_only)
     d->vk.CmdCopyImageToBuffer(state->commands, state->slot.accessibility[outcome].image,
                                VK_IMAGE_LAYOUT_GENERAL, state->staging.buffer, 1, &copy);
     crv__record_barrier(d, state->commands, CRV__COPIED_TO, CRV__HOST_READS);
+    crv__slot_record_time(&state->slot, state->commands);
+    state->filter_only = filter_only;
 }
 
 static crv_status submit_and_wait(plan_state *state)
@@ -272,10 +279,53 @@ static crv_status run(const crv__work *work, int filter_only, const crv__plane p
     return CRV_OK;
 }
 
+/* ---- times ---- */
+
+/* Reads depth and normals, and what came before; writes accessibility. */
+static double bytes_of(const crv__setup *setup, int reads_input)
+{
+    const crv__rectangle r = crv__setup_rectangle(setup);
+    const double pixels = (double)setup->desc.width * setup->desc.height;
+    const double texel = 4 * (double)setup->desc.layers + 16;
+    return pixels * texel + (double)r.width * r.height * (reads_input ? 8 : 4);
+}
+
+static crv_status times(const crv__setup *setup, const void *data, crv_device_time *out,
+                        int32_t *count)
+{
+    const plan_state *state = data;
+    const crv__slot *slot = &state->slot;
+    const crv__rectangle *r = &slot->rectangle;
+    if (!slot->queries)
+        return crv__fail(&state->program.device->logger, CRV_ERROR_UNSUPPORTED,
+                         "plan: the device has no timestamps");
+    if (slot->query_count == 0)
+        return CRV_ERROR_NOT_READY;
+    double times_ms[CRV__MOST_STEPS];
+    const crv_status status = crv__slot_times(slot, times_ms);
+    if (status)
+        return status;
+    int32_t step = 0;
+    out[step] = (crv_device_time){"upload", times_ms[step], bytes_of(setup, 0)};
+    step++;
+    if (!state->filter_only) {
+        out[step] = (crv_device_time){setup->method->info.name, times_ms[step],
+                                      bytes_of(setup, 0)};
+        step++;
+    }
+    for (int32_t i = 0; i < state->program.passes; i++, step++)
+        out[step] = (crv_device_time){setup->filter->info.name, times_ms[step],
+                                      bytes_of(setup, 1)};
+    out[step] =
+        (crv_device_time){"download", times_ms[step], (double)r->width * r->height * 8};
+    *count = step + 1;
+    return CRV_OK;
+}
+
 static void close_device(crv_context *context)
 {
     crv__device_destroy(crv__device_of(context));
 }
 
-const crv__backend crv__vulkan_backend = {"vulkan", plan_create, plan_destroy, run,
-                                          close_device};
+const crv__backend crv__vulkan_backend = {"vulkan", plan_create, plan_destroy,
+                                          run,      times,       close_device};

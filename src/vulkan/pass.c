@@ -448,20 +448,12 @@ crv_status crv_vulkan_pass_times(crv_vulkan_pass *p, int32_t index,
                          "that has them");
     if (!p->recorded[index])
         return CRV_ERROR_NOT_READY;
-    uint64_t ticks[CRV__MOST_STEPS + 1];
-    const VkResult result = d->vk.GetQueryPoolResults(
-        d->device, slot->queries, 0, (uint32_t)slot->query_count, sizeof ticks, ticks,
-        sizeof *ticks, VK_QUERY_RESULT_64_BIT);
-    if (result == VK_NOT_READY)
-        return CRV_ERROR_NOT_READY;
-    if (result)
-        return crv__device_fail(d, result, "timestamps");
-    const uint64_t mask =
-        d->timestamp_bits < 64 ? ((uint64_t)1 << d->timestamp_bits) - 1 : UINT64_MAX;
+    double times_ms[CRV__MOST_STEPS];
+    const crv_status status = crv__slot_times(slot, times_ms);
+    if (status)
+        return status;
     *count = slot->query_count - 1;
     for (int32_t i = 0; i < *count; i++)
-        times[i] = (crv_vulkan_time){
-            step_name(p, i), (double)((ticks[i + 1] - ticks[i]) & mask)
-                                 * (double)d->properties.limits.timestampPeriod * 1e-6};
+        times[i] = (crv_vulkan_time){step_name(p, i), times_ms[i]};
     return CRV_OK;
 }

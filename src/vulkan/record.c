@@ -112,3 +112,22 @@ void crv__slot_record_time(crv__slot *s, VkCommandBuffer commands)
                                                   VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                                                   s->queries, (uint32_t)s->query_count++);
 }
+
+crv_status crv__slot_times(const crv__slot *s, double times_ms[CRV__MOST_STEPS])
+{
+    const crv__device *d = s->program->device;
+    uint64_t ticks[CRV__MOST_STEPS + 1];
+    const VkResult result = d->vk.GetQueryPoolResults(
+        d->device, s->queries, 0, (uint32_t)s->query_count, sizeof ticks, ticks,
+        sizeof *ticks, VK_QUERY_RESULT_64_BIT);
+    if (result == VK_NOT_READY)
+        return CRV_ERROR_NOT_READY;
+    if (result)
+        return crv__device_fail(d, result, "timestamps");
+    const uint64_t mask =
+        d->timestamp_bits < 64 ? ((uint64_t)1 << d->timestamp_bits) - 1 : UINT64_MAX;
+    for (int32_t i = 0; i + 1 < s->query_count; i++)
+        times_ms[i] = (double)((ticks[i + 1] - ticks[i]) & mask)
+                      * (double)d->properties.limits.timestampPeriod * 1e-6;
+    return CRV_OK;
+}

@@ -66,6 +66,10 @@ void crv__slot_record_step(crv__slot *s, VkCommandBuffer commands,
                            const crv__pipeline *pipeline, VkDescriptorSet set,
                            const crv__push *push);
 
+/* Milliseconds of the steps whose times were noted since the beginning; NOT_READY while
+ * they are executed. */
+crv_status crv__slot_times(const crv__slot *s, double times_ms[CRV__MOST_STEPS]);
+
 /* Notes the time at which all before is done. */
 void crv__slot_record_time(crv__slot *s, VkCommandBuffer commands);
 
