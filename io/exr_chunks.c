@@ -249,6 +249,7 @@ static void read_chunk_number(reading *r, int32_t number, exr_decode_pipeline_t 
         return;
     IO__OMP(critical(io__exr_failure))
     if (number < r->failed) {
+        IO__OMP(atomic write)
         r->failed = number;
         r->code = code;
     }

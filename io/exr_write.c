@@ -26,6 +26,7 @@ static void keep_detail(exr_const_context_t context, exr_result_t code, const ch
     if (!context || exr_get_user_data(context, &user) != EXR_ERR_SUCCESS || !user)
         return;
     writer *w = user;
+    IO__OMP(critical(io__exr_detail)) /* chunks are packed by several threads */
     snprintf(w->detail, sizeof w->detail, "%s", text ? text : "");
 }
 

@@ -87,9 +87,13 @@ int crv__plane_create(crv__plane *plane, const crv_allocator *allocator, int32_t
                       int32_t y0, int32_t width, int32_t height)
 {
     const ptrdiff_t unit = CRV__ALIGNMENT / (ptrdiff_t)sizeof(float);
-    /* An odd number of cache lines: rows of a power of two would fall on the same few
-     * sets of the cache, and those of a window would drive each other out. */
-    const ptrdiff_t pitch = ((width + unit - 1) / unit | 1) * unit;
+    /* An odd number of cache lines, and none near a multiple of the 64 sets of a first
+     * level cache: else the rows of a window, or neighbours along a row and across rows,
+     * fall on the same few sets and drive each other out. */
+    ptrdiff_t lines = (width + unit - 1) / unit | 1;
+    if (lines > 64 && (lines + 3) % 64 < 7)
+        lines += 8;
+    const ptrdiff_t pitch = lines * unit;
     float *data = crv__allocate(allocator, (size_t)height, (size_t)pitch * sizeof(float));
     if (!data)
         return -1;
