@@ -18,6 +18,7 @@ fi
 # Without a device there is a reason, and no picture.
 VK_DRIVER_FILES=/dev/null VK_ICD_FILENAMES=/dev/null bad 1 'vulkan: ' \
     render builtin:sphere --size 32x18 --device vulkan -o out.exr
+bad 1 'vulkan: ' render builtin:sphere --size 32x18 --device vulkan:999 -o out.exr
 
 good devices
 if ! grep -q '^vulkan:0 ' stdout.txt; then
