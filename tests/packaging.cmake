@@ -12,7 +12,7 @@ function(style_test name)
 endfunction()
 function(packaging_test name)
     add_test(NAME ${name} COMMAND ${ARGN})
-    set_tests_properties(${name} PROPERTIES LABELS packaging TIMEOUT 300)
+    set_tests_properties(${name} PROPERTIES LABELS packaging TIMEOUT 600)
 endfunction()
 
 find_package(Python3 REQUIRED COMPONENTS Interpreter)

@@ -73,6 +73,16 @@ if command -v python3 >/dev/null && [ -z "${TSAN_OPTIONS:-}${ASAN_OPTIONS:-}" ];
     ! grep -n '{\|nan\|None' page.md || fail "the page has gaps"
 fi
 
+# A GPU, where there is one; instruction sets are the CPU's.
+bad 2 '--isas: contradicts --device' bench --device vulkan --isas all
+bad 2 '--structures: contradicts --device' bench --device vulkan --structures fast
+if [ -z "${TSAN_OPTIONS:-}${ASAN_OPTIONS:-}" ] && "$tool" devices 2>/dev/null | grep -q vulkan; then
+    # shellcheck disable=SC2086
+    good bench builtin:corner $brief --device vulkan --methods hbao --json gpu.json \
+        --only methods,passes,memory,whole
+    sound gpu.json methods 1 passes 12 memory 2 whole 3
+fi
+
 # Views of a list, by name.
 cat >views.json <<'JSON'
 {"views": [

@@ -42,6 +42,11 @@ static void list_sets(uint32_t mask, char *out, size_t size)
                                      crv_isa_name((crv_isa)i));
 }
 
+bool device_is_cpu(const common_settings *common)
+{
+    return common->device == NULL || strcmp(common->device, "cpu") == 0;
+}
+
 /* Reads --device; false where it names nothing. */
 static bool parse_device(const char *text, crv_context_desc *desc)
 {

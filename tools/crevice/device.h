@@ -14,4 +14,7 @@ int device_context(const common_settings *common, const crv_logger *logger, repo
 int device_context_in(const common_settings *common, const crv_logger *logger,
                       const crv_allocator *allocator, report *r, crv_context **out);
 
+/* Whether --device chooses the CPU, the only one to which --isa and --exact apply. */
+bool device_is_cpu(const common_settings *common);
+
 #endif

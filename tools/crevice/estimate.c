@@ -6,9 +6,18 @@
 #include <stdio.h>
 #include <string.h>
 
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
 int estimate_open(estimator *e, const common_settings *common, report *r)
 {
     *e = (estimator){0};
+#ifdef _OPENMP
+    /* Files are packed and unpacked by as many. */
+    if (common->threads.value > 0)
+        omp_set_num_threads(common->threads.value);
+#endif
     return device_context(common, &r->logger, r, &e->context);
 }
 

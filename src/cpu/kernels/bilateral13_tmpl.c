@@ -53,7 +53,7 @@ CRV__INLINE void add(sums *s, const crv__limits *limits, const crv__centre *c, v
                      const crv__texel *tap, int32_t k, int with_normals)
 {
     const float gauss = GAUSS[k < 0 ? -k : k];
-    const vf expected = c->depth + vf_set((float)k) * slope;
+    const vf expected = crv__block_step(c->depth, slope, k);
     const vf off = vf_min(vf_abs(tap->depth - expected), limits->depth);
     vf weight = vf_fma(off, limits->inv_depth * vf_set(-gauss), vf_set(gauss));
     if (with_normals)
@@ -114,8 +114,6 @@ CRV__INLINE void add_row(sums s[CRV__BLOCK_ROWS], const crv__frame *f,
     add(&s[i], limits, &c[i], c[i].slope_y, &tap, row - (i), with_normals)
     CENTRE(0);
     CENTRE(1);
-    CENTRE(2);
-    CENTRE(3);
 #undef CENTRE
 }
 
@@ -144,8 +142,6 @@ CRV__INLINE void down_block(const crv__frame *f, const crv__plane *input,
     ROW(5);
     ROW(6);
     ROW(7);
-    ROW(8);
-    ROW(9);
 #undef ROW
     for (int32_t i = 0; i < CRV__BLOCK_ROWS; i++)
         crv__block_store(out, x, y + i, c[i].depth, s[i].values / s[i].weights);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The fast way through a filter: blocks of four rows of a vector each, whose windows lie
- * within the input. What the rows read at one offset is loaded once for all of them, and
+ * The fast way through a filter: blocks of two rows of a vector each, whose windows lie
+ * within the input. What the rows read at one offset is loaded once for both, and
  * nothing is tested: the depth of background is infinite, which brings any weight to 0.
  */
 #ifndef CRV_CPU_KERNELS_BLOCK_H
@@ -9,7 +9,7 @@
 
 #include "cpu/kernels/window.h"
 
-enum { CRV__BLOCK_ROWS = 4 };
+enum { CRV__BLOCK_ROWS = 2 }; /* four would need more registers than there are */
 
 /* From here on the likeness is a matter of rounding: left to the general way. */
 #define CRV__SHARPEST 1000.0f
@@ -83,6 +83,13 @@ CRV__INLINE vf crv__block_likeness(const crv__limits *limits, const crv__centre 
     return vf_fma(tap->normal.x, c->turned.x,
                   vf_fma(tap->normal.y, c->turned.y,
                          vf_fma(tap->normal.z, c->turned.z, limits->likeness_base)));
+}
+
+/* a + steps * slope; the product is the same number for as many steps either way. */
+CRV__INLINE vf crv__block_step(vf a, vf slope, int32_t steps)
+{
+    const vf change = vf_set((float)(steps < 0 ? -steps : steps)) * slope;
+    return steps == 0 ? a : steps < 0 ? a - change : a + change;
 }
 
 /* Whether the window of a block of `rows` rows at (x, y) lies within the input. */

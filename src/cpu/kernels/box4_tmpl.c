@@ -38,7 +38,7 @@ CRV__INLINE void add_row(sums s[CRV__BLOCK_ROWS], const crv__limits *limits,
 {
 #define CENTRE(i)                                                                        \
     if (row - (i) >= FIRST && row - (i) <= LAST) {                                       \
-        const vf expected = level[i] + vf_set((float)(row - (i))) * c[i].slope_y;        \
+        const vf expected = crv__block_step(level[i], c[i].slope_y, row - (i));          \
         vm in = vf_le(vf_abs(tap->depth - expected), limits->depth);                     \
         if (with_normals)                                                                \
             in = vm_and(in, vf_lt(vf_zero(), crv__block_likeness(limits, &c[i], tap)));  \
@@ -47,8 +47,6 @@ CRV__INLINE void add_row(sums s[CRV__BLOCK_ROWS], const crv__limits *limits,
     }
     CENTRE(0)
     CENTRE(1)
-    CENTRE(2)
-    CENTRE(3)
 #undef CENTRE
 }
 
@@ -76,8 +74,6 @@ CRV__INLINE void block(const crv__frame *f, const crv__plane *input,
         ROW(0);
         ROW(1);
         ROW(2);
-        ROW(3);
-        ROW(4);
 #undef ROW
     }
     for (int32_t i = 0; i < CRV__BLOCK_ROWS; i++)

@@ -14,13 +14,13 @@ enum { CHUNK = 256 };
 CRV__INLINE float checked(double depth)
 {
     const float d = (float)depth;
-    return (d > 0) & (d < INFINITY) ? d : INFINITY;
+    return ((d > 0) & (d < INFINITY)) ? d : INFINITY;
 }
 
 static void planar(float background, const float *v, int32_t count, float *out)
 {
     for (int32_t i = 0; i < count; i++)
-        out[i] = (v[i] < background) & (v[i] > 0) & (v[i] < INFINITY) ? v[i] : INFINITY;
+        out[i] = ((v[i] < background) & (v[i] > 0) & (v[i] < INFINITY)) ? v[i] : INFINITY;
 }
 
 static void radial(const crv__depth_map *map, const float *v, int32_t x, int32_t y,
@@ -44,7 +44,7 @@ CRV__INLINE void hardware(const crv__depth_map *map, const float *v, int32_t cou
     for (int32_t i = 0; i < count; i++) {
         const double affine = a + b * (double)v[i];
         const float d = checked(orthographic ? affine : 1 / affine);
-        out[i] = (v[i] != end) & (v[i] >= 0) & (v[i] <= 1) ? d : INFINITY;
+        out[i] = ((v[i] != end) & (v[i] >= 0) & (v[i] <= 1)) ? d : INFINITY;
     }
 }
 

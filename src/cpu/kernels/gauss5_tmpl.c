@@ -44,7 +44,7 @@ CRV__INLINE void add_row(sums s[CRV__BLOCK_ROWS], const crv__limits *limits,
 {
 #define CENTRE(i)                                                                        \
     if (row - (i) >= -REACH && row - (i) <= REACH) {                                     \
-        const vf expected = level[i] + vf_set((float)(row - (i))) * c[i].slope_y;        \
+        const vf expected = crv__block_step(level[i], c[i].slope_y, row - (i));          \
         const vf off = vf_abs(tap->depth - expected);                                    \
         vf weight = vf_rcp_rough(vf_fma(off, limits->inv_depth, vf_set(0.125f)))         \
                     * binomial[row < (i) ? (i)-row : row - (i)];                         \
@@ -56,8 +56,6 @@ CRV__INLINE void add_row(sums s[CRV__BLOCK_ROWS], const crv__limits *limits,
     }
     CENTRE(0)
     CENTRE(1)
-    CENTRE(2)
-    CENTRE(3)
 #undef CENTRE
 }
 
@@ -90,8 +88,6 @@ CRV__INLINE void block(const crv__frame *f, const crv__plane *input,
         ROW(1);
         ROW(2);
         ROW(3);
-        ROW(4);
-        ROW(5);
 #undef ROW
     }
     for (int32_t i = 0; i < CRV__BLOCK_ROWS; i++)

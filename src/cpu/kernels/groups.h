@@ -30,8 +30,11 @@ CRV__INLINE const float *crv__span_read(const crv__plane *plane, int32_t x, int3
 {
     const float *row = crv__plane_at(plane, plane->x0, y);
     const int32_t at = x - plane->x0;
-    if (at >= 0 && at + CRV__FAST_SPAN <= plane->width)
+    if (at >= 0 && at + CRV__FAST_SPAN <= plane->width) {
+        for (int32_t i = 0; i < CRV__FAST_SPAN; i += CRV__FAST_GROUP)
+            __builtin_prefetch(row + at + CRV__FAST_SPAN + i); /* the next one */
         return row + at;
+    }
     for (int32_t i = 0; i < CRV__FAST_SPAN; i++)
         room[i] = at + i >= 0 && at + i < plane->width ? row[at + i] : fill;
     return room;

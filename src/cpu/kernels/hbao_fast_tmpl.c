@@ -70,7 +70,7 @@ static inline __attribute__((always_inline)) void add_sample(
                          vf_fma(k, w->ray2 + squared2 + twice_along,
                                 vf_set(sample->minus_squared2) - twice_along),
                          squared2);
-    const vf inverse = vf_rsqrt_fair(squared);
+    const vf inverse = vf_rsqrt_rough(squared), distance = squared * inverse;
     vm valid = vf_lt(squared, w->limit);
     if (s.biased) {
         const vf sin_bias = vf_set(w->params->sin_bias),
@@ -79,9 +79,8 @@ static inline __attribute__((always_inline)) void add_sample(
         valid = vm_and(valid, vf_lt(vf_zero() - tilt * sin_bias, cosine * cos_bias));
         tilt = tilt * cos_bias - cosine * sin_bias;
     }
-    const vf h = vf_where(valid, vf_fma(k, inverse, tilt));
+    const vf h = vf_where(valid, vf_fma_rsqrt(k, inverse, distance, tilt));
     const vf risen = vf_max(h, walk->horizon), rise = risen - walk->horizon;
-    const vf distance = squared * inverse;
     if (s.falloff == CRV_FALLOFF_LINEAR && !s.horizon) {
         walk->occlusion = vf_fma(rise, distance, walk->occlusion); /* to be taken off */
     } else if (s.falloff != CRV_FALLOFF_NONE) {

@@ -84,13 +84,6 @@ CRV__INLINE vi crv__lanes_index(const crv__plane *plane, vi u, vi v)
     return vi_add(vi_mul(v, vi_set((int32_t)plane->pitch)), u);
 }
 
-/* Texels of a plane that holds all buffers' pixels. u, v: inside where the mask is set.
- */
-CRV__INLINE vf crv__lanes_read(const crv__plane *plane, vi u, vi v, vm mask)
-{
-    return vf_gather(plane->data, crv__lanes_index(plane, u, v), mask);
-}
-
 CRV__INLINE void crv__lanes_noise(const crv__frame *f, crv__pixels *at, int32_t x,
                                   int32_t y)
 {
@@ -127,16 +120,6 @@ CRV__INLINE void crv__lanes_surface(const crv__frame *f, crv__pixels *pixels, in
     at.n.z = vf_select(at.active, vf_load_n(crv__plane_at(&f->normal[2], x, y), count),
                        vf_set(1));
     *pixels = at;
-}
-
-/* All of the pixels from (x, y) on. */
-CRV__INLINE crv__pixels crv__pixels_at(const crv__frame *f, int32_t x, int32_t y,
-                                       int32_t count)
-{
-    crv__pixels at = {0};
-    crv__lanes_surface(f, &at, x, y, count);
-    crv__lanes_noise(f, &at, x, y);
-    return at;
 }
 
 /* crv__turned(). */
@@ -212,8 +195,8 @@ CRV__INLINE int crv__lanes_disk_within(const crv__params *p, const crv__pixels *
     return !vm_any(vm_and(at->active, vm_not(inside)));
 }
 
-/* Begins a row of which (x, y) is the first pixel. *steady: the noise is the same in all
- * its vectors, and the points are turned once for all. */
+/* Begins a row of which (x, y) is the first pixel. Returns whether the noise is the same
+ * in all its vectors; then it is there, and the points are turned once for all. */
 CRV__INLINE int crv__lanes_begin(const crv__frame *f, crv__pixels *at,
                                  crv__turned_points *turned, int32_t x, int32_t y)
 {

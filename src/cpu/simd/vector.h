@@ -107,6 +107,18 @@ CRV__INLINE vf vf_rsqrt_fair(vf a)
 #endif
 }
 
+/* a * 1/sqrt(b) + c as with vf_rsqrt_fair(b), from rough = vf_rsqrt_rough(b) and root = b
+ * * rough. */
+CRV__INLINE vf vf_fma_rsqrt(vf a, vf rough, vf root, vf c)
+{
+#ifdef CRV__ROUGH_IS_FAIR
+    (void)root;
+    return vf_fma(a, rough, c);
+#else
+    return vf_fma(a * rough, vf_fma(root * rough, vf_set(-0.5f), vf_set(1.5f)), c);
+#endif
+}
+
 /* a where the mask is set, else 0. */
 CRV__INLINE vf vf_where(vm mask, vf a)
 {

@@ -100,6 +100,9 @@ int bench_measure(bench *b, const bench_case *c, float *result, bench_outcome *o
 /* Sees to it that an error line has been written, and returns EXIT_FAILED. */
 int bench_failed(bench *b, const char *doing);
 
+/* What computes, in tables: the instruction set, or the device where that is no CPU. */
+const char *bench_isa_name(const bench *b, crv_isa isa);
+
 /* "fast" or "exact": the plain code has no other structure. */
 const char *bench_structure(const bench_case *c);
 

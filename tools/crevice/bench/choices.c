@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "bench/bench.h"
+#include "device.h"
 #include "study/machine.h"
 
 enum { WORD_SIZE = 64, NAMES_MAX = 64 };
@@ -258,7 +259,11 @@ static int check_contradictions(const bench_settings *s, report *r)
 {
     const char *plural = NULL, *single = NULL;
 
-    if (s->isas.count > 0 && s->common.isa.given)
+    if (s->isas.count > 0 && !device_is_cpu(&s->common))
+        plural = "--isas", single = "--device";
+    else if (s->structures.count > 0 && !device_is_cpu(&s->common))
+        plural = "--structures", single = "--device";
+    else if (s->isas.count > 0 && s->common.isa.given)
         plural = "--isas", single = "--isa";
     else if (s->structures.count > 0 && s->common.exact)
         plural = "--structures", single = "--exact";
@@ -275,6 +280,8 @@ static const char *default_isas(const bench_settings *s, char *out, size_t size)
 {
     crv_isa best = CRV_ISA_SCALAR;
 
+    if (!device_is_cpu(&s->common))
+        return "scalar"; /* the device's one kind */
     if (s->common.isa.value > 0)
         return crv_isa_name((crv_isa)(s->common.isa.value - 1));
     if (s->full)
@@ -302,9 +309,9 @@ int bench_choose(const bench_settings *s, const char *const *section_names,
         {"--filters", &s->filters, s->full ? "none,preset" : "none", take_filter},
         {"--isas", &s->isas, default_isas(s, isas, sizeof isas), take_isa},
         {"--structures", &s->structures,
-         s->common.exact ? "exact"
-         : s->full       ? "both"
-                         : "fast",
+         s->common.exact || !device_is_cpu(&s->common) ? "exact"
+         : s->full                                     ? "both"
+                                                       : "fast",
          take_structure},
         {"--threads-list", &s->threads, threads, take_threads},
         {"--sizes", &s->sizes, s->full ? "1920x1080" : "1280x720", take_size},

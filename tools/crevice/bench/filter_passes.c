@@ -56,7 +56,7 @@ static int measure_filter(bench *b, const bench_frame *frame, work *w,
     int result = EXIT_FAILED;
 
     snprintf(name, sizeof name, "filter %s", filter->name);
-    bench_progress(b, "%s %s, %s", frame->source->name, name, crv_isa_name(isa));
+    bench_progress(b, "%s %s, %s", frame->source->name, name, bench_isa_name(b, isa));
     if (!report_ok(b->r,
                    crv_plan_create(w->context, &options, &frame->desc, &w->filtered),
                    "plan"))

@@ -70,7 +70,7 @@ cJSON *bench_row(bench *b, const bench_case *c, const bench_outcome *o)
     cJSON_AddStringToObject(row, "filter",
                             options->filter != NULL ? options->filter->name : "none");
     cJSON_AddStringToObject(row, "structure", bench_structure(c));
-    cJSON_AddStringToObject(row, "isa", crv_isa_name(c->isa));
+    cJSON_AddStringToObject(row, "isa", bench_isa_name(b, c->isa));
     cJSON_AddNumberToObject(row, "threads", c->threads);
     cJSON_AddNumberToObject(row, "radius", (double)options->radius);
     cJSON_AddNumberToObject(row, "radius_factor",

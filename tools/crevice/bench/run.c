@@ -38,9 +38,11 @@ int bench_context(bench *b, crv_isa isa, int32_t threads, bool exact,
     const crv_allocator allocator = {count_allocate, count_release, memory};
 
     *memory = (bench_memory){0};
-    common.isa = (arg_int){true, (int32_t)isa + 1};
     common.threads = (arg_int){true, threads};
-    common.exact = exact;
+    if (device_is_cpu(&common)) {
+        common.isa = (arg_int){true, (int32_t)isa + 1};
+        common.exact = exact;
+    }
     return device_context_in(&common, &b->quiet_logger, &allocator, b->r, out);
 }
 
@@ -150,6 +152,13 @@ int bench_failed(bench *b, const char *doing)
     if (b->r->errors == 0)
         report_error(b->r, "%s: failed", doing);
     return EXIT_FAILED;
+}
+
+const char *bench_isa_name(const bench *b, crv_isa isa)
+{
+    const common_settings *common = &b->settings->common;
+
+    return device_is_cpu(common) ? crv_isa_name(isa) : common->device;
 }
 
 const char *bench_structure(const bench_case *c)

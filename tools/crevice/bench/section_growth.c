@@ -60,7 +60,7 @@ static void add_fit(const curve *k, const bench_case *c)
 
     cJSON_AddStringToObject(row, "method", c->options.method->name);
     cJSON_AddStringToObject(row, "over", k->of);
-    cJSON_AddStringToObject(row, "isa", crv_isa_name(c->isa));
+    cJSON_AddStringToObject(row, "isa", bench_isa_name(k->b, c->isa));
     cJSON_AddStringToObject(row, "structure", bench_structure(c));
     cJSON_AddNumberToObject(row, "points", k->count);
     study_add_number(row, "from", k->x[0]);

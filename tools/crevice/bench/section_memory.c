@@ -26,7 +26,7 @@ static int measure(bench *b, const bench_frame *frame, int32_t method, bool filt
     cJSON_AddStringToObject(row, "method", c.options.method->name);
     cJSON_AddStringToObject(row, "filter", filtered ? "bilateral13" : "none");
     cJSON_AddStringToObject(row, "structure", bench_structure(&c));
-    cJSON_AddStringToObject(row, "isa", crv_isa_name(c.isa));
+    cJSON_AddStringToObject(row, "isa", bench_isa_name(b, c.isa));
     cJSON_AddNumberToObject(row, "width", frame->width);
     cJSON_AddNumberToObject(row, "height", frame->height);
     cJSON_AddNumberToObject(row, "bytes", outcome.bytes);

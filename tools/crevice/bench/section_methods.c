@@ -50,7 +50,7 @@ static int measure(bench *b, bench_case *c, crv_preset preset)
     bench_progress(b, "%s %s %s, %s, %s %s, %d thread%s", c->frame->source->name,
                    c->options.method->name, crv_preset_name(preset),
                    c->options.filter != NULL ? c->options.filter->name : "no filter",
-                   crv_isa_name(c->isa), bench_structure(c), c->threads,
+                   bench_isa_name(b, c->isa), bench_structure(c), c->threads,
                    c->threads == 1 ? "" : "s");
     result = bench_measure(b, c, NULL, &outcome);
     if (result != EXIT_DONE)

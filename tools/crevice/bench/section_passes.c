@@ -179,7 +179,7 @@ void bench_add_pass(bench *b, const bench_frame *frame, const char *name, crv_is
     cJSON_AddNumberToObject(row, "width", frame->desc.width);
     cJSON_AddNumberToObject(row, "height", frame->desc.height);
     cJSON_AddStringToObject(row, "pass", name);
-    cJSON_AddStringToObject(row, "isa", crv_isa_name(isa));
+    cJSON_AddStringToObject(row, "isa", bench_isa_name(b, isa));
     cJSON_AddNumberToObject(row, "threads", threads);
     bench_add_time(b, row, t, pixels);
     cJSON_AddNumberToObject(row, "streamed_bytes_per_pixel", bytes);
@@ -196,7 +196,7 @@ static int measure_pass(bench *b, const bench_frame *frame, pass *p, crv_isa isa
     /* A plane in and one out for every component; from depth, three planes out. */
     double bytes = p->is_depth ? 8.0 : p->has_normals ? 24.0 : 16.0;
 
-    bench_progress(b, "%s %s, %s", frame->source->name, p->name, crv_isa_name(isa));
+    bench_progress(b, "%s %s, %s", frame->source->name, p->name, bench_isa_name(b, isa));
     if (!bench_time_runs(&b->clock, pass_once, p, &t))
         return bench_failed(b, p->name);
     bench_add_pass(b, frame, p->name, isa, threads, bytes, &t);

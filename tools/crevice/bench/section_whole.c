@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "bench/bench.h"
+#include "device.h"
 #include "gbuffer_image.h"
 #include "output.h"
 #include "study/study.h"
@@ -34,14 +35,26 @@ typedef struct whole_run {
 
 static int list_words(const whole_run *w, const char *words[WORDS_MAX])
 {
-    const char *fixed[] = {w->program, "ao",      w->input,    "-o",
-                           w->output,  "--quiet", "--method",  w->method,
-                           "--preset", w->preset, "--radius",  w->radius,
-                           "--isa",    w->isa,    "--threads", w->threads};
+    const char *fixed[] = {w->program,
+                           "ao",
+                           w->input,
+                           "-o",
+                           w->output,
+                           "--quiet",
+                           "--method",
+                           w->method,
+                           "--preset",
+                           w->preset,
+                           "--radius",
+                           w->radius,
+                           device_is_cpu(&w->b->settings->common) ? "--isa" : "--device",
+                           w->isa,
+                           "--threads",
+                           w->threads};
     int count = sizeof fixed / sizeof fixed[0];
 
     memcpy(words, fixed, sizeof fixed);
-    if (w->exact)
+    if (w->exact && device_is_cpu(&w->b->settings->common))
         words[count++] = "--exact";
     if (w->vfov[0] != '\0') {
         words[count++] = "--vfov";
@@ -228,7 +241,7 @@ int bench_whole_section(bench *b)
                    .frame = &frame,
                    .method = choose_method(c),
                    .preset = crv_preset_name(c->presets[0]),
-                   .isa = crv_isa_name(c->isas[0]),
+                   .isa = bench_isa_name(b, c->isas[0]),
                    .exact = c->exact[0]};
     int result;
 

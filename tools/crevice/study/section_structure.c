@@ -238,12 +238,17 @@ static void write_all(study *s, const comparison *all)
 
 int study_structure(study *s)
 {
-    comparison *all = calloc((size_t)s->view_count * METHOD_COUNT, sizeof *all);
+    comparison *all;
     int result = EXIT_DONE;
 
+    page_heading(s->page, 2, "structure", "Fast and exact sampling");
+    if (!device_is_cpu(s->common)) {
+        page_text(s->page, "The device `%s` has one structure only.", s->common->device);
+        return EXIT_DONE;
+    }
+    all = calloc((size_t)s->view_count * METHOD_COUNT, sizeof *all);
     if (all == NULL)
         return report_no_memory(s->r);
-    page_heading(s->page, 2, "structure", "Fast and exact sampling");
     page_text(s->page,
               "By default kernels may move samples by a part of a pixel's footprint, so "
               "that neighbours read side by side; `--exact` samples where the plain code "
