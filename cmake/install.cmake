@@ -27,6 +27,9 @@ install(EXPORT creviceTargets NAMESPACE crevice:: DESTINATION ${crevice_cmake_di
 get_target_property(crevice_type crevice TYPE)
 set(crevice_find_openmp OFF)
 set(crevice_pc_private -lm)
+foreach(library IN LISTS CMAKE_DL_LIBS) # the Vulkan loader is looked up at run time
+    string(APPEND crevice_pc_private " -l${library}")
+endforeach()
 if(CREVICE_OPENMP)
     find_package(OpenMP QUIET COMPONENTS C)
     if(OpenMP_C_FOUND)

@@ -18,6 +18,7 @@ fi
 # Without a device there is a reason, and no picture.
 VK_DRIVER_FILES=/dev/null VK_ICD_FILENAMES=/dev/null bad 1 'vulkan: ' \
     render builtin:sphere --size 32x18 --device vulkan -o out.exr
+bad 1 'vulkan: ' render builtin:sphere --size 32x18 --device vulkan:999 -o out.exr
 
 good devices
 if ! grep -q '^vulkan:0 ' stdout.txt; then
@@ -36,6 +37,14 @@ for method in hbao vao; do
     # 2e-3 but for a pixel in a thousand is the promise; the mean then keeps well below.
     at_most "$(number mae)" 0.001 "$method: mean error of vulkan"
 done
+# A row for each step of each method: upload, estimate, two passes of the filter, download.
+good bench builtin:corner --device vulkan --sizes 64x36 --seconds 0 --repeats 1 \
+    --methods hbao,vo --filters bilateral13 --json bench.json
+[ "$(grep -c '"step":' bench.json)" -eq 10 ] || fail "steps: $(grep '"step":' bench.json)"
+grep -q '"step":[[:space:]]*"hbao"' bench.json || fail "no step of hbao"
+bad 2 '--isas: is for the CPU' bench --device vulkan --isas scalar
+bad 2 '--only: is for the CPU' bench --device vulkan --only methods
+
 good gbuffer builtin:sphere --size 64x36 -o passes.exr
 good ao passes.exr -o cpu.exr --exact
 good ao passes.exr -o vulkan.exr --device vulkan:0

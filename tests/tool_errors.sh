@@ -65,7 +65,6 @@ for device in gpu vulkan: vulkan:x vulkan:-1 vulkan:1x vulkan:99999 vulkan+1 '';
 done
 render 2 '--isa: is for the CPU' $m --device vulkan --isa scalar
 render 2 '--exact: is for the CPU' $m --device vulkan:0 --exact
-render 1 'vulkan: ' $m --device vulkan:999
 
 bad 2 '--size: "0x0"' render $m --size 0x0 -o out.png
 bad 2 '--size: "100000x100000"' render $m --size 100000x100000 -o out.png

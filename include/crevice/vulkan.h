@@ -20,7 +20,8 @@
  *
  * The device must have been made with Vulkan 1.3 or newer and the features
  * synchronization2 and shaderStorageImageWriteWithoutFormat; its queue family must have
- * compute. libcrevice does not link the Vulkan loader.
+ * compute. libcrevice does not link the Vulkan loader. Where it was built without Vulkan
+ * (CREVICE_VULKAN=OFF) it has none of these functions.
  */
 #ifndef CREVICE_VULKAN_H
 #define CREVICE_VULKAN_H
@@ -77,8 +78,8 @@ CRV_API void crv_vulkan_host_init(crv_vulkan_host *host, size_t struct_size);
 
 /*
  * A context on the host's device. desc NULL: the defaults; its `device` is not read.
- * Errors: INVALID_ARGUMENT; UNSUPPORTED where the device lacks what is needed, or the
- * library was built without Vulkan; OUT_OF_MEMORY. Thread-safe.
+ * Errors: INVALID_ARGUMENT; UNSUPPORTED where the device lacks what is needed;
+ * OUT_OF_MEMORY. Thread-safe.
  */
 CRV_API crv_status crv_vulkan_context_create(const crv_context_desc *desc,
                                              const crv_vulkan_host *host,

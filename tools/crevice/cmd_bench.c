@@ -199,6 +199,27 @@ static int check_sets(const bench_settings *s, const bench_choices *c, report *r
     return EXIT_DONE;
 }
 
+static bool on_device(const bench_settings *s)
+{
+    return s->common.device != NULL && strcmp(s->common.device, "cpu") != 0;
+}
+
+/* The sections and these lists are of the CPU. */
+static int check_device(const bench_settings *s, report *r)
+{
+    const char *flag = s->only.count > 0         ? "--only"
+                       : s->isas.count > 0       ? "--isas"
+                       : s->structures.count > 0 ? "--structures"
+                       : s->threads.count > 0    ? "--threads-list"
+                                                 : NULL;
+
+    if (!on_device(s) || flag == NULL)
+        return EXIT_DONE;
+    report_error(r, "%s: is for the CPU; leave it out with --device %s", flag,
+                 s->common.device);
+    return EXIT_USAGE;
+}
+
 static int check(const bench_settings *s, bench_choices *c, report *r)
 {
     static const char *names[SECTION_COUNT + 1];
@@ -209,6 +230,8 @@ static int check(const bench_settings *s, bench_choices *c, report *r)
     result = bench_choose(s, names, c, r);
     if (result == EXIT_DONE)
         result = check_sets(s, c, r);
+    if (result == EXIT_DONE)
+        result = check_device(s, r);
     return result;
 }
 
@@ -304,6 +327,8 @@ static int run_sections(bench *b)
 {
     int result = describe(b);
 
+    if (result == EXIT_DONE && on_device(b->settings))
+        return bench_device_section(b);
     if (result == EXIT_DONE)
         result = bench_ceilings_section(b);
     for (int i = 0; i < SECTION_COUNT && result == EXIT_DONE; i++)

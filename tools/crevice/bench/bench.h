@@ -147,5 +147,7 @@ int bench_memory_section(bench *b);
 int bench_growth_section(bench *b);
 int bench_embree_section(bench *b);
 int bench_whole_section(bench *b);
+/* Instead of all the others, with --device vulkan. */
+int bench_device_section(bench *b);
 
 #endif
