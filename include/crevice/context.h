@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * context.h: the objects that do the work. A context holds the hooks; a plan holds the
- * memory of one method with one set of options on G-buffers of one size, and runs any
- * number of frames without allocating.
+ * context.h: the objects that do the work. A context holds the hooks and the device; a
+ * plan holds the memory of one method with one set of options on G-buffers of one size,
+ * and runs any number of frames without allocating.
  */
 #ifndef CREVICE_CONTEXT_H
 #define CREVICE_CONTEXT_H
@@ -14,9 +14,9 @@
 extern "C" {
 #endif
 
-/* Instruction sets for which there are kernels. Every one computes the same estimate:
- * within 1e-3 of the scalar code, but for a few pixels where rounding picks the
- * neighbouring texel. */
+/* Instruction sets of the CPU for which there are kernels. With crv_context_desc.exact
+ * every one computes the same estimate: within 1e-3 of the scalar code, but for a few
+ * pixels where rounding picks the neighbouring texel. */
 typedef enum crv_isa {
     CRV_ISA_SCALAR, /* plain C, the specification */
     CRV_ISA_SSE4,   /* x86-64-v2 */
@@ -50,8 +50,8 @@ typedef struct crv_context_desc {
     uint32_t isa_mask; /* bits 1u << crv_isa that may be used; the fastest of them that
                           is available is, and CRV_ISA_SCALAR where none is. 0 (default):
                           all */
-    /* 1: sampling points exactly where the scalar code has them. 0 (default): kernels may
-     * move them a little where that is faster and measured to be no worse. */
+    /* CPU only. 1: sampling points exactly where the scalar code has them. 0 (default):
+     * kernels may move them a little where that is faster and measured to be no worse. */
     int32_t exact;
     crv_device device;    /* default CRV_DEVICE_CPU */
     int32_t device_index; /* Vulkan: as crv_vulkan_device_info() counts; default 0 */
@@ -61,20 +61,21 @@ typedef struct crv_context_desc {
 CRV_API void crv_context_desc_init(crv_context_desc *desc, size_t struct_size);
 
 /*
- * Hooks, and nothing else: there is no global state. A context and all that was made with
- * it serve one thread at a time; different contexts are independent.
+ * Hooks and a device: there is no global state. A context and all that was made with it
+ * serve one thread at a time; different contexts are independent.
  */
 typedef struct crv_context crv_context;
 
 /* desc NULL: the defaults. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY; UNSUPPORTED where
  * there is no such device, it lacks what is needed, or the library was built without
- * Vulkan. Thread-safe. */
+ * Vulkan; DEVICE where its driver fails. Thread-safe. */
 CRV_API crv_status crv_context_create(const crv_context_desc *desc, crv_context **out);
 
 /* Everything made with the context must have been destroyed. NULL does nothing. */
 CRV_API void crv_context_destroy(crv_context *context);
 
-/* The instruction set that the context's plans use; CRV_ISA_SCALAR for NULL. */
+/* The instruction set that the context's plans use on the CPU, and its G-buffers on any
+ * device; CRV_ISA_SCALAR for NULL. */
 CRV_API crv_isa crv_context_isa(const crv_context *context);
 
 /* A device for crv_context_desc. */
@@ -87,11 +88,12 @@ typedef struct crv_device_info {
 
 /* Describes the Vulkan device `index`, from 0 on. logger NULL: silent. Errors:
  * INVALID_ARGUMENT where info is NULL or there are not so many devices (not logged);
- * UNSUPPORTED with a line where there is no Vulkan, at build or at run time. Thread-safe.
- */
+ * UNSUPPORTED with a line where there is no Vulkan, at build or at run time; DEVICE where
+ * a driver fails; OUT_OF_MEMORY. Thread-safe. */
 CRV_API crv_status crv_vulkan_device_info(int32_t index, crv_device_info *info,
                                           const crv_logger *logger);
 
+/* One method, one filter, one set of options, one size. */
 typedef struct crv_plan crv_plan;
 
 /*
@@ -99,9 +101,10 @@ typedef struct crv_plan crv_plan;
  * bytes for each pixel of the result, as much again for the filter, and as much again for
  * each depth layer with 0.5 to 16 MiB of tables where sampling points may move (see
  * crv_context_desc.exact); with the G-buffer's own, less than 48 bytes a pixel, 2 MiB of
- * tables apart. Options and desc
- * are copied. *out must be destroyed before its context. Errors: INVALID_ARGUMENT,
- * OUT_OF_MEMORY.
+ * tables apart. On a Vulkan device images and a staging buffer come on top, in its
+ * memory. Options and desc are copied. *out must be destroyed before its context.
+ * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY; on a Vulkan device UNSUPPORTED where it cannot
+ * compute this, and DEVICE where its driver fails.
  */
 CRV_API crv_status crv_plan_create(crv_context *context, const crv_options *options,
                                    const crv_gbuffer_desc *desc, crv_plan **out);
@@ -113,10 +116,12 @@ CRV_API void crv_plan_destroy(crv_plan *plan);
  * Computes the accessibility of every pixel inside the guard band, filtered if the
  * options say so: 1 is open, 0 fully occluded, background is 1; always finite and in [0,
  * 1]. result: one channel, width - guard_left - guard_right by height - guard_top -
- * guard_bottom. Allocates nothing; the same input gives the same bits for any number of
- * threads. A plan may run on any G-buffer made with an equal desc and the same context.
+ * guard_bottom. Returns when it is done. Allocates nothing; the same input gives the same
+ * bits for any number of threads. A plan may run on any G-buffer made with an equal desc
+ * and the same context.
  * Errors: INVALID_ARGUMENT; NOT_READY where the G-buffer lacks its camera or a depth
- * layer.
+ * layer; on a Vulkan device UNSUPPORTED where the G-buffer has a height field or implicit
+ * surfaces that the options ask for, and DEVICE where its driver fails.
  */
 CRV_API crv_status crv_plan_run(crv_plan *plan, crv_gbuffer *gbuffer,
                                 const crv_image *result);
@@ -134,8 +139,8 @@ CRV_API crv_status crv_plan_filter(crv_plan *plan, crv_gbuffer *gbuffer,
 typedef struct crv_device_time {
     const char *name; /* "upload", the method's or filter's name, "download"; static */
     double time_ms;
-    double
-        bytes; /* that must move at least: images read and written, each counted once */
+    /* That must move at least: images read and written, each counted once. */
+    double bytes;
 } crv_device_time;
 
 #define CRV_MAX_DEVICE_TIMES 8
@@ -144,7 +149,7 @@ typedef struct crv_device_time {
  * The steps of the plan's last run by the device's own clock. times: room for
  * CRV_MAX_DEVICE_TIMES; *count says how many were written. Errors: INVALID_ARGUMENT;
  * NOT_READY before the first run; UNSUPPORTED on the CPU, or where the device has no
- * timestamps.
+ * timestamps; DEVICE where its driver fails.
  */
 CRV_API crv_status crv_plan_device_times(const crv_plan *plan, crv_device_time *times,
                                          int32_t *count);

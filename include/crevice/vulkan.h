@@ -78,8 +78,8 @@ CRV_API void crv_vulkan_host_init(crv_vulkan_host *host, size_t struct_size);
 
 /*
  * A context on the host's device. desc NULL: the defaults; its `device` is not read.
- * Errors: INVALID_ARGUMENT; UNSUPPORTED where the device lacks what is needed;
- * OUT_OF_MEMORY. Thread-safe.
+ * Errors: INVALID_ARGUMENT; UNSUPPORTED where the device lacks what is needed; DEVICE
+ * where its driver fails; OUT_OF_MEMORY. Thread-safe.
  */
 CRV_API crv_status crv_vulkan_context_create(const crv_context_desc *desc,
                                              const crv_vulkan_host *host,
@@ -120,16 +120,21 @@ typedef struct crv_vulkan_pass_desc {
     int32_t level_px;
 } crv_vulkan_pass_desc;
 
+/* Sets the defaults. Pass sizeof *desc as struct_size. Thread-safe. */
 CRV_API void crv_vulkan_pass_desc_init(crv_vulkan_pass_desc *desc, size_t struct_size);
 
-/*
- * Pipelines, images and descriptors of one method, filter and size. The G-buffer's desc
- * says size, layers and guard band. For another size or other options make another pass
- * and destroy this one when its last recording has been executed.
- * Errors: INVALID_ARGUMENT; UNSUPPORTED where the device lacks a format, or the context
- * has no Vulkan device; OUT_OF_MEMORY.
- */
+/* Pipelines, images and descriptors of one method, filter and size. */
 typedef struct crv_vulkan_pass crv_vulkan_pass;
+
+/*
+ * The G-buffer's desc says size, layers and guard band; all three descriptions are
+ * copied. For another size or other options make another pass and destroy this one when
+ * its last recording has been executed. *out must be destroyed before its context, and
+ * serves one thread at a time together with it.
+ * Errors: INVALID_ARGUMENT; UNSUPPORTED where the device lacks a format, cannot compute
+ * this, or the context has no Vulkan device; DEVICE where its driver fails;
+ * OUT_OF_MEMORY.
+ */
 CRV_API crv_status crv_vulkan_pass_create(crv_context *context,
                                           const crv_options *options,
                                           const crv_gbuffer_desc *gbuffer,
@@ -167,6 +172,8 @@ typedef struct crv_vulkan_frame {
     VkAccessFlags2 result_access;
 } crv_vulkan_frame;
 
+/* Sets the defaults; camera, views and images are still to be given. Pass sizeof *frame
+ * as struct_size. Thread-safe. */
 CRV_API void crv_vulkan_frame_init(crv_vulkan_frame *frame, size_t struct_size);
 
 /*
@@ -188,8 +195,10 @@ CRV_API crv_status crv_vulkan_pass_record(crv_vulkan_pass *pass, VkCommandBuffer
 
 /* The time that a step of a recording took on the device. */
 typedef struct crv_vulkan_time {
-    const char *name; /* "depth", "normals", "deinterleave", "levels", the method's
-                         or filter's name */
+    /* "depth" (one for each layer), "normals", "deinterleave", "levels", the method's
+     * name, and the filter's, or "filter, first pass" and "filter, second pass"; static.
+     */
+    const char *name;
     double time_ms;
 } crv_vulkan_time;
 
@@ -199,7 +208,8 @@ typedef struct crv_vulkan_time {
  * Times of the last recording of the frame in flight `index`, once it has been executed.
  * times: room for CRV_VULKAN_MAX_TIMES; *count says how many were written. Does not wait.
  * Errors: INVALID_ARGUMENT; NOT_READY while it is executed, or where nothing was
- * recorded; UNSUPPORTED where desc.timestamps is not set or the queue family has none.
+ * recorded; UNSUPPORTED where desc.timestamps is not set or the queue family has none;
+ * DEVICE where the driver fails.
  */
 CRV_API crv_status crv_vulkan_pass_times(crv_vulkan_pass *pass, int32_t index,
                                          crv_vulkan_time *times, int32_t *count);
