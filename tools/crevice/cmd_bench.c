@@ -9,6 +9,7 @@
 
 #include "bench/bench.h"
 #include "commands.h"
+#include "device.h"
 #include "output.h"
 #include "study/machine.h"
 #include "study/text.h"
@@ -199,11 +200,6 @@ static int check_sets(const bench_settings *s, const bench_choices *c, report *r
     return EXIT_DONE;
 }
 
-static bool on_device(const bench_settings *s)
-{
-    return s->common.device != NULL && strcmp(s->common.device, "cpu") != 0;
-}
-
 /* The sections and these lists are of the CPU. */
 static int check_device(const bench_settings *s, report *r)
 {
@@ -213,7 +209,7 @@ static int check_device(const bench_settings *s, report *r)
                        : s->threads.count > 0    ? "--threads-list"
                                                  : NULL;
 
-    if (!on_device(s) || flag == NULL)
+    if (device_is_cpu(&s->common) || flag == NULL)
         return EXIT_DONE;
     report_error(r, "%s: is for the CPU; leave it out with --device %s", flag,
                  s->common.device);
@@ -327,7 +323,7 @@ static int run_sections(bench *b)
 {
     int result = describe(b);
 
-    if (result == EXIT_DONE && on_device(b->settings))
+    if (result == EXIT_DONE && !device_is_cpu(&b->settings->common))
         return bench_device_section(b);
     if (result == EXIT_DONE)
         result = bench_ceilings_section(b);
@@ -438,7 +434,8 @@ const command command_bench = {
         "Measures what the machine can do at most, then the library on frames that are "
         "ready in memory, and prints tables; medians over repeated runs. Times of a busy "
         "machine say little: run it alone. With --json all numbers are kept, times in "
-        "ms, rates in millions of pixels a second.",
+        "ms, rates in millions of pixels a second. With --device vulkan it times the "
+        "steps of each method by the GPU's own clock instead.",
     .tables = tables,
     .examples = examples,
     .settings_size = sizeof(bench_settings),

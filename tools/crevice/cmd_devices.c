@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "commands.h"
+#include "device.h"
 
 typedef struct devices_settings {
     common_settings common;
@@ -25,19 +26,6 @@ static const char *const examples[] = {
     "crevice devices",
     NULL,
 };
-
-/* Instruction sets of the CPU, ", " between them. */
-static void list_sets(char *out, size_t size)
-{
-    const uint32_t mask = crv_isa_available();
-    size_t used = 0;
-
-    out[0] = '\0';
-    for (int i = CRV_ISA_SCALAR; crv_isa_name((crv_isa)i) != NULL && used < size; i++)
-        if (mask >> i & 1)
-            used += (size_t)snprintf(out + used, size - used, "%s%s", used ? ", " : "",
-                                     crv_isa_name((crv_isa)i));
-}
 
 static void print_device(int32_t index, const crv_device_info *info)
 {
@@ -82,7 +70,7 @@ static int run(const void *settings, report *r)
     int32_t count = 0;
     char *text;
 
-    list_sets(sets, sizeof sets);
+    device_list_isas(sets, sizeof sets);
     if (!s->json)
         printf("%-10s %s\n", "cpu", sets);
     cJSON_AddStringToObject(root, "cpu", sets);

@@ -22,24 +22,25 @@ static const arg device_rows[] = {
      .choices = isa_choices,
      .initial = "auto",
      .offset = offsetof(common_settings, isa),
-     .help = "instruction set of the kernels; auto: the best that this machine has"},
+     .help =
+         "instruction set of the CPU's kernels; auto: the best that this machine has"},
     {.name = "--exact",
      .type = ARG_FLAG,
      .offset = offsetof(common_settings, exact),
-     .help = "sample exactly where the plain code does: slower, no better"},
+     .help = "on the CPU, sample exactly where the plain code does: slower, no better"},
 };
 const arg_table args_device = ARG_TABLE("Device", device_rows);
 
-/* The names of a mask's sets, ", " between them. */
-static void list_sets(uint32_t mask, char *out, size_t size)
+void device_list_isas(char *out, size_t size)
 {
+    const uint32_t available = crv_isa_available();
     size_t used = 0;
 
     out[0] = '\0';
     for (int i = CRV_ISA_SCALAR; crv_isa_name((crv_isa)i) != NULL && used < size; i++)
-        if (mask >> i & 1)
-            used += (size_t)snprintf(out + used, size - used, "%s%s", used ? ", " : "",
-                                     crv_isa_name((crv_isa)i));
+        if (available >> i & 1)
+            used += (size_t)snprintf(out + used, size - used, "%s%s",
+                                     used > 0 ? ", " : "", crv_isa_name((crv_isa)i));
 }
 
 bool device_is_cpu(const common_settings *common)
@@ -89,7 +90,6 @@ int device_context(const common_settings *common, const crv_logger *logger, repo
 int device_context_in(const common_settings *common, const crv_logger *logger,
                       const crv_allocator *allocator, report *r, crv_context **out)
 {
-    const uint32_t available = crv_isa_available();
     crv_context_desc desc;
 
     crv_context_desc_init(&desc, sizeof desc);
@@ -102,9 +102,9 @@ int device_context_in(const common_settings *common, const crv_logger *logger,
         return EXIT_USAGE;
     if (common->isa.value > 0) {
         desc.isa_mask = 1u << (common->isa.value - 1);
-        if (!(desc.isa_mask & available)) {
+        if (!(desc.isa_mask & crv_isa_available())) {
             char names[128];
-            list_sets(available, names, sizeof names);
+            device_list_isas(names, sizeof names);
             report_error(r, "--isa %s: not on this machine; there are %s",
                          isa_choices[common->isa.value], names);
             return EXIT_USAGE;

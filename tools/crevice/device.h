@@ -17,4 +17,7 @@ int device_context_in(const common_settings *common, const crv_logger *logger,
 /* Whether --device chooses the CPU, the only one to which --isa and --exact apply. */
 bool device_is_cpu(const common_settings *common);
 
+/* Writes the names of the CPU's instruction sets that are here, ", " between them. */
+void device_list_isas(char *out, size_t size);
+
 #endif

@@ -142,13 +142,9 @@ static int take_filter(const list *l, const char *word, bench_choices *c)
 
 static int not_here(const list *l, const char *word)
 {
-    char names[128] = "";
-    size_t used = 0;
+    char names[128];
 
-    for (int i = 0; crv_isa_name((crv_isa)i) != NULL && used < sizeof names; i++)
-        if (crv_isa_available() >> i & 1)
-            used += (size_t)snprintf(names + used, sizeof names - used, "%s%s",
-                                     used > 0 ? ", " : "", crv_isa_name((crv_isa)i));
+    device_list_isas(names, sizeof names);
     report_error(l->r, "%s %s: not on this machine; there are %s", l->flag, word, names);
     return EXIT_USAGE;
 }
