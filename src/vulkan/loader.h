@@ -25,7 +25,6 @@
 
 #define CRV__DEVICE_FUNCTIONS(F)                                                         \
     F(DestroyDevice)                                                                     \
-    F(DeviceWaitIdle)                                                                    \
     F(GetDeviceQueue)                                                                    \
     F(QueueSubmit2)                                                                      \
     F(AllocateMemory)                                                                    \

@@ -17,7 +17,6 @@
  *   vf_min vf_max            the second argument where either is a NaN
  *   vf_sqrt vf_floor vf_fma  exact; fma rounds twice where the set has none
  *   vf_rsqrt                 1/sqrt, relative error < 1e-6; not for denormal numbers
- *   vf_rsqrt_fair            relative error < 1e-4, otherwise the same
  *   vf_rsqrt_rough           relative error < 4e-4; at 0 infinite or a NaN
  *   vf_rcp_rough             1/a, relative error < 4e-4
  *   vi_trunc vi_round vf_of  conversions; the value must fit
