@@ -14,7 +14,7 @@
 #endif
 
 struct crv__push {
-    /* What the input image of filters and resolve covers, from its first texel. */
+    /* What the input image of filters covers, from its first texel. */
     int32_t in_x, in_y, in_width, in_height;
     /* What is written; the output image's first texel is the corner. */
     int32_t out_x, out_y, out_width, out_height;
@@ -22,7 +22,7 @@ struct crv__push {
     int32_t pass;            /* of a filter */
     int32_t layer;           /* of a depth conversion */
     int32_t depth_encoding;  /* crv_depth_encoding */
-    int32_t normal_encoding; /* crv__normal_encoding */
+    int32_t normal_encoding; /* crv_vulkan_normals */
 
     /* Hardware depth: 1 / (a + b u), orthographic a + b u; depth.glsl says what u is. */
     float depth_a, depth_b;
@@ -34,15 +34,6 @@ struct crv__push {
 
 #ifndef VULKAN
 typedef struct crv__push crv__push;
-
-/* How an image of normals is to be read. */
-typedef enum crv__normal_encoding {
-    CRV__NORMAL_NONE = 0,       /* no image: reconstructed from depth */
-    CRV__NORMAL_XYZ = 1,        /* as stored, floats or signed normalised */
-    CRV__NORMAL_XYZ_HALVED = 2, /* unsigned: n * 0.5 + 0.5 */
-    CRV__NORMAL_OCT = 3,        /* octahedral, two signed numbers */
-    CRV__NORMAL_OCT_HALVED = 4  /* octahedral, * 0.5 + 0.5 */
-} crv__normal_encoding;
 
 _Static_assert(sizeof(crv__push) == 100, "at most 128 bytes; layout shared with GLSL");
 _Static_assert(offsetof(crv__push, to_view) == 64, "layout shared with GLSL");

@@ -6,7 +6,7 @@
 
 #include "frame.glsl"
 
-/* crv__normal_encoding */
+/* crv_vulkan_normals (crevice/vulkan.h) */
 const int NORMAL_NONE = 0, NORMAL_XYZ = 1, NORMAL_XYZ_HALVED = 2, NORMAL_OCT = 3,
           NORMAL_OCT_HALVED = 4;
 
