@@ -76,6 +76,7 @@ fi
 # A GPU, where there is one; instruction sets are the CPU's.
 bad 2 '--isas: contradicts --device' bench --device vulkan --isas all
 bad 2 '--structures: contradicts --device' bench --device vulkan --structures fast
+bad 2 '--only device: ' bench --only device
 if [ -z "${TSAN_OPTIONS:-}${ASAN_OPTIONS:-}" ] && "$tool" devices 2>/dev/null | grep -q vulkan; then
     # shellcheck disable=SC2086
     good bench builtin:corner $brief --device vulkan --methods hbao --json gpu.json \

@@ -42,8 +42,7 @@ good bench builtin:corner --device vulkan --sizes 64x36 --seconds 0 --repeats 1 
     --methods hbao,vo --filters bilateral13 --json bench.json
 [ "$(grep -c '"step":' bench.json)" -eq 10 ] || fail "steps: $(grep '"step":' bench.json)"
 grep -q '"step":[[:space:]]*"hbao"' bench.json || fail "no step of hbao"
-bad 2 '--isas: is for the CPU' bench --device vulkan --isas scalar
-bad 2 '--only: is for the CPU' bench --device vulkan --only methods
+bad 2 '--isas: contradicts --device' bench --device vulkan --isas scalar
 
 good gbuffer builtin:sphere --size 64x36 -o passes.exr
 good ao passes.exr -o cpu.exr --exact

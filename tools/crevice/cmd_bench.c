@@ -21,6 +21,7 @@ static const struct {
     {"methods", bench_methods_section}, {"passes", bench_passes_section},
     {"memory", bench_memory_section},   {"growth", bench_growth_section},
     {"embree", bench_embree_section},   {"whole", bench_whole_section},
+    {"device", bench_device_section},
 };
 enum { SECTION_COUNT = sizeof sections / sizeof sections[0] };
 
@@ -123,8 +124,10 @@ static const arg run_rows[] = {
      .value = "SECTION",
      .type = ARG_TEXTS,
      .offset = offsetof(bench_settings, only),
-     .computed = "methods, passes, memory, whole",
-     .help = "methods|passes|memory|growth|embree|whole; a list, too"},
+     .computed = "methods, passes, memory, whole; device on a GPU",
+     .help =
+         "methods|passes|memory|growth|embree|whole|device, a list, too; device: every "
+         "step of a plan by the GPU's clock, the others by that of the host"},
     {.name = "--full",
      .type = ARG_FLAG,
      .offset = offsetof(bench_settings, full),
@@ -200,20 +203,17 @@ static int check_sets(const bench_settings *s, const bench_choices *c, report *r
     return EXIT_DONE;
 }
 
-/* The sections and these lists are of the CPU. */
-static int check_device(const bench_settings *s, report *r)
+/* The section of a GPU's own clock has nothing to read on a CPU. */
+static int check_device(const bench_settings *s, const bench_choices *c, report *r)
 {
-    const char *flag = s->only.count > 0         ? "--only"
-                       : s->isas.count > 0       ? "--isas"
-                       : s->structures.count > 0 ? "--structures"
-                       : s->threads.count > 0    ? "--threads-list"
-                                                 : NULL;
-
-    if (device_is_cpu(&s->common) || flag == NULL)
-        return EXIT_DONE;
-    report_error(r, "%s: is for the CPU; leave it out with --device %s", flag,
-                 s->common.device);
-    return EXIT_USAGE;
+    for (int32_t i = 0; i < c->section_count; i++) {
+        if (strcmp(c->sections[i], "device") == 0 && device_is_cpu(&s->common)) {
+            report_error(r, "--only device: times the steps of a GPU; give --device "
+                            "vulkan, too");
+            return EXIT_USAGE;
+        }
+    }
+    return EXIT_DONE;
 }
 
 static int check(const bench_settings *s, bench_choices *c, report *r)
@@ -227,7 +227,7 @@ static int check(const bench_settings *s, bench_choices *c, report *r)
     if (result == EXIT_DONE)
         result = check_sets(s, c, r);
     if (result == EXIT_DONE)
-        result = check_device(s, r);
+        result = check_device(s, c, r);
     return result;
 }
 
@@ -323,9 +323,9 @@ static int run_sections(bench *b)
 {
     int result = describe(b);
 
-    if (result == EXIT_DONE && !device_is_cpu(&b->settings->common))
-        return bench_device_section(b);
-    if (result == EXIT_DONE)
+    /* Of the host, whose clock times all sections but that of the device. */
+    if (result == EXIT_DONE
+        && (b->choices->section_count > 1 || !is_wanted(b->choices, "device")))
         result = bench_ceilings_section(b);
     for (int i = 0; i < SECTION_COUNT && result == EXIT_DONE; i++)
         if (is_wanted(b->choices, sections[i].name))
@@ -435,7 +435,8 @@ const command command_bench = {
         "ready in memory, and prints tables; medians over repeated runs. Times of a busy "
         "machine say little: run it alone. With --json all numbers are kept, times in "
         "ms, rates in millions of pixels a second. With --device vulkan it times the "
-        "steps of each method by the GPU's own clock instead.",
+        "steps of each method by the GPU's own clock, unless --only asks for other "
+        "sections.",
     .tables = tables,
     .examples = examples,
     .settings_size = sizeof(bench_settings),

@@ -313,8 +313,9 @@ int bench_choose(const bench_settings *s, const char *const *section_names,
         {"--sizes", &s->sizes, s->full ? "1920x1080" : "1280x720", take_size},
         {"--radii", &s->radii, "1", take_radius},
         {"--only", &s->only,
-         s->full ? "methods,passes,memory,growth,embree,whole"
-                 : "methods,passes,memory,whole",
+         !device_is_cpu(&s->common) ? "device"
+         : s->full                  ? "methods,passes,memory,growth,embree,whole"
+                                    : "methods,passes,memory,whole",
          take_section},
     };
     int result = check_contradictions(s, r);
