@@ -74,6 +74,9 @@ needs_missing_elsewhere()
         && ! echo '#include <embree3/rtcore.h>' | gcc -E - >/dev/null 2>&1; then
         echo "Embree 3 or 4 with its headers"
     fi
+    if ! echo '#include <vulkan/vulkan.h>' | gcc -E - >/dev/null 2>&1; then
+        echo "Vulkan's headers"
+    fi
     if [[ $1 == *libcmocka-dev* ]] && ! pkg-config --exists cmocka 2>/dev/null; then
         echo "cmocka with its headers"
     fi

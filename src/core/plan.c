@@ -352,6 +352,7 @@ crv_status crv_plan_device_times(const crv_plan *plan, crv_device_time *times,
                          "plan: times or count is NULL");
     if (!backend->times)
         return crv__fail(&plan->context->logger, CRV_ERROR_UNSUPPORTED,
-                         "plan: %s has no clock of its own", backend->name);
+                         "plan: %s has no clock of its own; time crv_plan_run()",
+                         backend->name);
     return backend->times(&plan->setup, plan->state, times, count);
 }

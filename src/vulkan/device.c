@@ -247,7 +247,8 @@ static crv_status open_host(crv__device *d, const crv_vulkan_host *host)
     d->vk.GetPhysicalDeviceQueueFamilyProperties(d->physical, &count, families);
     if (d->family >= count || !(families[d->family].queueFlags & VK_QUEUE_COMPUTE_BIT))
         return crv__fail(&d->logger, CRV_ERROR_INVALID_ARGUMENT,
-                         "vulkan: queue family %u has no compute", d->family);
+                         "vulkan: queue family %u has no compute; give one that has",
+                         d->family);
     return CRV_OK;
 }
 

@@ -42,7 +42,8 @@ static crv_status check_desc(const crv_logger *logger, const crv_vulkan_pass_des
     if (desc->normals < CRV_VULKAN_NORMALS_NONE
         || desc->normals > CRV_VULKAN_NORMALS_OCT_HALVED)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
-                         "pass: unknown encoding of normals %d", (int)desc->normals);
+                         "pass: normals is %d; use one of crv_vulkan_normals",
+                         (int)desc->normals);
     if (desc->normal_space != CRV_NORMAL_VIEW && desc->normal_space != CRV_NORMAL_WORLD)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "pass: normal space %d is neither view nor world",
@@ -235,7 +236,8 @@ static crv_status check_frame(const crv_vulkan_pass *p, VkCommandBuffer commands
                          "crv_vulkan_frame_init()");
     if (frame->index < 0 || frame->index >= p->desc.frames)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
-                         "pass: frame %d of %d in flight", frame->index, p->desc.frames);
+                         "pass: index is %d; use 0 to %d, one for each frame in flight",
+                         frame->index, p->desc.frames - 1);
     for (int32_t i = 0; i < p->setup.desc.layers; i++) {
         if (!is_readable(&frame->depth[i]))
             return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
@@ -250,12 +252,15 @@ static crv_status check_frame(const crv_vulkan_pass *p, VkCommandBuffer commands
                          (int)frame->normals.layout);
     if (!frame->result || !frame->result_view)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
-                         "pass: the result's image or view is missing");
+                         "pass: the result's image or view is missing; set result and "
+                         "result_view");
     if (frame->result_layout == VK_IMAGE_LAYOUT_UNDEFINED
         || frame->result_layout == VK_IMAGE_LAYOUT_PREINITIALIZED)
-        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
-                         "pass: the result cannot be left in layout %d",
-                         (int)frame->result_layout);
+        return crv__fail(
+            logger, CRV_ERROR_INVALID_ARGUMENT,
+            "pass: the result cannot be left in layout %d; give the one that it "
+            "is read in",
+            (int)frame->result_layout);
     return crv__camera_check(logger, &frame->camera);
 }
 
