@@ -129,8 +129,8 @@ typedef float (*crv_implicit_fn)(void *user, const float point_view[3],
 
 /* Adds an implicit surface to the frame, for the methods that test points (vao,
  * containment; see crv_characteristic). function NULL removes it. user is handed to it;
- * not owned. Takes the place of a height field. Forgotten with the next camera. Errors:
- * NOT_READY, INVALID_ARGUMENT. */
+ * not owned. Takes the place of a height field. Forgotten with the next camera. Plans on
+ * a Vulkan device refuse it (crv_plan_run()). Errors: NOT_READY, INVALID_ARGUMENT. */
 CRV_API crv_status crv_gbuffer_set_implicit(crv_gbuffer *gbuffer,
                                             crv_implicit_fn function, void *user);
 
@@ -156,7 +156,8 @@ typedef struct crv_height_field {
 
 /* Adds a height field to the frame, for vao and containment; memory for it is taken at
  * the first call. NULL removes it. Takes the place of an implicit surface. Forgotten with
- * the next camera. Errors: NOT_READY, INVALID_ARGUMENT, OUT_OF_MEMORY. */
+ * the next camera. Plans on a Vulkan device refuse it (crv_plan_run()). Errors:
+ * NOT_READY, INVALID_ARGUMENT, OUT_OF_MEMORY. */
 CRV_API crv_status crv_gbuffer_set_height_field(crv_gbuffer *gbuffer,
                                                 const crv_height_field *field);
 
