@@ -374,6 +374,10 @@ least; the median is given, and behind +- half the distance between the quartile
 half of `--seconds` is the only one. Samples are the look-ups in the buffers for each pixel. Presets are
 `medium`, {threads}. {cycles}
 
+Nothing here was measured on a GPU, only what two threads of a processor do; `crevice bench --device vulkan`
+gives the steps of every method there, with their share of the device's measured bandwidth, and
+[gpu.md](gpu.md) the floors that bytes and fetches set.
+
 ## What was wanted
 
 {aims}

@@ -297,6 +297,13 @@ static void nulls_are_refused(void **state)
     assert_int_equal(crv_context_create(&half, &context), CRV_ERROR_INVALID_ARGUMENT);
     assert_null(context);
     assert_int_equal(crv_context_create(NULL, &context), CRV_OK);
+    double bandwidth = 0;
+    assert_int_equal(crv_context_device_bandwidth(NULL, &bandwidth),
+                     CRV_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(crv_context_device_bandwidth(context, NULL),
+                     CRV_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(crv_context_device_bandwidth(context, &bandwidth),
+                     CRV_ERROR_UNSUPPORTED); /* the CPU */
     assert_int_equal(crv_gbuffer_create(NULL, &desc, &gbuffer),
                      CRV_ERROR_INVALID_ARGUMENT);
     assert_int_equal(crv_gbuffer_create(context, NULL, &gbuffer),

@@ -42,6 +42,18 @@ good bench builtin:corner --device vulkan --sizes 64x36 --seconds 0 --repeats 1 
     --methods hbao,vo --filters bilateral13 --json bench.json
 [ "$(grep -c '"step":' bench.json)" -eq 10 ] || fail "steps: $(grep '"step":' bench.json)"
 grep -q '"step":[[:space:]]*"hbao"' bench.json || fail "no step of hbao"
+# Shares of the bandwidth that was measured in the same run; not of what crosses a bus.
+python3 -c 'import json, sys
+report = json.load(sys.stdin)
+bandwidth = report["device_bytes_per_s"]
+assert bandwidth > 0, bandwidth
+for row in report["device_steps"]:
+    share = row["share_of_bandwidth"]
+    if row["step"] in ("upload", "download"):
+        assert share is None, row
+    else:
+        assert abs(share - row["gb_per_s"] * 1e9 / bandwidth) <= 1e-6 * share, row
+' <bench.json || fail "shares of the bandwidth"
 bad 2 '--isas: contradicts --device' bench --device vulkan --isas scalar
 
 good gbuffer builtin:sphere --size 64x36 -o passes.exr

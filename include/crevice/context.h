@@ -154,6 +154,17 @@ typedef struct crv_device_time {
 CRV_API crv_status crv_plan_device_times(const crv_plan *plan, crv_device_time *times,
                                          int32_t *count);
 
+/*
+ * How many bytes the device's memory moves in a second, read and written, by the device's
+ * own clock: the best of several copies of one image of 64 MiB to another. What the bytes
+ * of crv_device_time over their time are to be compared with; caches may carry small
+ * frames past it. Takes the images' memory, submits to the context's queue and waits;
+ * gives all back. Errors: INVALID_ARGUMENT, also where the host gave no queue;
+ * UNSUPPORTED on the CPU, or where the device has no timestamps; OUT_OF_MEMORY; DEVICE.
+ */
+CRV_API crv_status crv_context_device_bandwidth(crv_context *context,
+                                                double *bytes_per_s);
+
 /* The most subpixel samples that crv_multisample_gather() takes. */
 #define CRV_MAX_SUBSAMPLES 16
 

@@ -57,6 +57,8 @@ struct crv__backend {
     /* The last run's, see crv_plan_device_times(); NULL: there are none. */
     crv_status (*times)(const crv__setup *setup, const void *state,
                         crv_device_time *times, int32_t *count);
+    /* crv_context_device_bandwidth(); NULL: there is no device. */
+    crv_status (*bandwidth)(crv_context *context, double *bytes_per_s);
     void (*close)(crv_context *context); /* its device; NULL: nothing to do */
 };
 

@@ -104,3 +104,18 @@ void crv_context_destroy(crv_context *context)
     crv_allocator allocator = context->allocator;
     crv__release(&allocator, context, 1, sizeof *context);
 }
+
+crv_status crv_context_device_bandwidth(crv_context *context, double *bytes_per_s)
+{
+    if (!context)
+        return CRV_ERROR_INVALID_ARGUMENT;
+    if (!bytes_per_s)
+        return crv__fail(&context->logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "context: bytes_per_s is NULL");
+    if (!context->backend->bandwidth)
+        return crv__fail(&context->logger, CRV_ERROR_UNSUPPORTED,
+                         "context: %s is no device whose memory has a clock; make the "
+                         "context with a Vulkan device",
+                         context->backend->name);
+    return context->backend->bandwidth(context, bytes_per_s);
+}

@@ -262,4 +262,5 @@ static crv_status run(const crv__work *work, int filter_only, const crv__plane p
     return CRV_OK;
 }
 
-const crv__backend crv__cpu_backend = {"cpu", plan_create, plan_destroy, run, NULL, NULL};
+const crv__backend crv__cpu_backend = {
+    .name = "cpu", .plan_create = plan_create, .plan_destroy = plan_destroy, .run = run};

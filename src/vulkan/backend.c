@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Plans on a device: what the CPU has converted is copied there, computed and copied
  * back. */
+#include "vulkan/commands.h"
 #include "vulkan/slot.h"
 
 #include <string.h>
@@ -9,9 +10,7 @@ typedef struct plan_state {
     crv__program program;
     crv__slot slot;
     crv__buffer staging; /* depth layers, normals; accessibility in and out */
-    VkCommandPool pool;
-    VkCommandBuffer commands;
-    VkFence fence;
+    crv__commands commands;
     int filter_only; /* what was run last */
 } plan_state;
 
@@ -33,35 +32,11 @@ static staging_layout layout_of(const crv__setup *setup)
     return layout;
 }
 
-static crv_status create_commands(plan_state *state, const crv__device *d)
-{
-    const VkCommandPoolCreateInfo pool = {.sType =
-                                              VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-                                          .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
-                                          .queueFamilyIndex = d->family};
-    VkResult result =
-        d->vk.CreateCommandPool(d->device, &pool, d->callbacks, &state->pool);
-    if (result)
-        return crv__device_fail(d, result, "command pool");
-    const VkCommandBufferAllocateInfo buffer = {
-        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-        .commandPool = state->pool,
-        .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-        .commandBufferCount = 1};
-    result = d->vk.AllocateCommandBuffers(d->device, &buffer, &state->commands);
-    if (result)
-        return crv__device_fail(d, result, "command buffer");
-    const VkFenceCreateInfo fence = {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    result = d->vk.CreateFence(d->device, &fence, d->callbacks, &state->fence);
-    return result ? crv__device_fail(d, result, "fence") : CRV_OK;
-}
-
 static void plan_destroy(const crv__setup *setup, void *data)
 {
     plan_state *state = data;
     const crv__device *d = crv__device_of(setup->context);
-    d->vk.DestroyFence(d->device, state->fence, d->callbacks);
-    d->vk.DestroyCommandPool(d->device, state->pool, d->callbacks);
+    crv__commands_destroy(&state->commands, d);
     crv__buffer_destroy(&state->staging, d);
     crv__slot_destroy(&state->slot);
     crv__program_destroy(&state->program);
@@ -76,9 +51,6 @@ static crv_status plan_create(const crv__setup *setup, const crv__plane *rectang
     const crv__slot_desc slot = {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R32_SFLOAT,
                                  d->timestamp_bits > 0};
     (void)rectangle; /* the setup's own */
-    if (!d->queue)
-        return crv__fail(&d->logger, CRV_ERROR_INVALID_ARGUMENT,
-                         "vulkan: plans need a queue; set host.queue");
     crv_status status = crv__setup_check(d, setup);
     if (status)
         return status;
@@ -93,7 +65,7 @@ static crv_status plan_create(const crv__setup *setup, const crv__plane *rectang
                                     VK_BUFFER_USAGE_TRANSFER_SRC_BIT
                                         | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     if (status == CRV_OK)
-        status = create_commands(state, d);
+        status = crv__commands_create(&state->commands, d, "plans");
     if (status)
         plan_destroy(setup, state);
     else
@@ -166,16 +138,16 @@ static void record_upload(const crv__work *work, plan_state *state, int filter_o
                             estimate =
                                 whole(layout.accessibility, r->width, r->height, 1);
     const VkBuffer from = state->staging.buffer;
-    d->vk.CmdCopyBufferToImage(state->commands, from, state->slot.depth.image,
+    d->vk.CmdCopyBufferToImage(state->commands.buffer, from, state->slot.depth.image,
                                VK_IMAGE_LAYOUT_GENERAL, 1, &depth);
-    d->vk.CmdCopyBufferToImage(state->commands, from, state->slot.normals.image,
+    d->vk.CmdCopyBufferToImage(state->commands.buffer, from, state->slot.normals.image,
                                VK_IMAGE_LAYOUT_GENERAL, 1, &normals);
     if (filter_only)
-        d->vk.CmdCopyBufferToImage(state->commands, from,
+        d->vk.CmdCopyBufferToImage(state->commands.buffer, from,
                                    state->slot.accessibility[0].image,
                                    VK_IMAGE_LAYOUT_GENERAL, 1, &estimate);
-    crv__record_barrier(d, state->commands, CRV__COPIED_TO, CRV__SAMPLED);
-    crv__slot_record_time(&state->slot, state->commands);
+    crv__record_barrier(d, state->commands.buffer, CRV__COPIED_TO, CRV__SAMPLED);
+    crv__slot_record_time(&state->slot, state->commands.buffer);
 }
 
 /* Runs the passes; the index of the image that holds the outcome. */
@@ -192,18 +164,18 @@ static int32_t record_passes(plan_state *state, int filter_only)
                       .out_width = r->width,
                       .out_height = r->height};
     if (!filter_only) {
-        crv__slot_record_step(&state->slot, state->commands, &state->program.estimate,
-                              state->slot.estimate_set, &push);
-        crv__slot_record_time(&state->slot, state->commands);
+        crv__slot_record_step(&state->slot, state->commands.buffer,
+                              &state->program.estimate, state->slot.estimate_set, &push);
+        crv__slot_record_time(&state->slot, state->commands.buffer);
     }
     for (push.pass = 0; push.pass < state->program.passes; push.pass++) {
-        crv__record_barrier(d, state->commands, CRV__WRITTEN,
+        crv__record_barrier(d, state->commands.buffer, CRV__WRITTEN,
                             (crv__access){CRV__SAMPLED.stages,
                                           CRV__SAMPLED.access | CRV__WRITTEN.access});
-        crv__slot_record_step(&state->slot, state->commands,
+        crv__slot_record_step(&state->slot, state->commands.buffer,
                               &state->program.filter[push.pass],
                               state->slot.filter_set[push.pass], &push);
-        crv__slot_record_time(&state->slot, state->commands);
+        crv__slot_record_time(&state->slot, state->commands.buffer);
     }
     return state->program.passes % 2;
 }
@@ -212,39 +184,22 @@ static void record(const crv__work *work, plan_state *state, int filter_only)
 {
     const crv__device *d = state->program.device;
     const crv__rectangle *r = &state->slot.rectangle;
-    crv__slot_record_begin(&state->slot, state->commands);
+    crv__slot_record_begin(&state->slot, state->commands.buffer);
     record_upload(work, state, filter_only);
     const int32_t outcome = record_passes(state, filter_only);
     const crv__access done = {CRV__WRITTEN.stages | CRV__COPIED_TO.stages,
                               CRV__WRITTEN.access | CRV__COPIED_TO.access};
     const crv__access copies = {CRV__COPIED_FROM.stages,
                                 CRV__COPIED_FROM.access | CRV__COPIED_TO.access};
-    crv__record_barrier(d, state->commands, done, copies);
+    crv__record_barrier(d, state->commands.buffer, done, copies);
     const VkBufferImageCopy copy =
         whole(layout_of(work->setup).accessibility, r->width, r->height, 1);
-    d->vk.CmdCopyImageToBuffer(state->commands, state->slot.accessibility[outcome].image,
+    d->vk.CmdCopyImageToBuffer(state->commands.buffer,
+                               state->slot.accessibility[outcome].image,
                                VK_IMAGE_LAYOUT_GENERAL, state->staging.buffer, 1, &copy);
-    crv__record_barrier(d, state->commands, CRV__COPIED_TO, CRV__HOST_READS);
-    crv__slot_record_time(&state->slot, state->commands);
+    crv__record_barrier(d, state->commands.buffer, CRV__COPIED_TO, CRV__HOST_READS);
+    crv__slot_record_time(&state->slot, state->commands.buffer);
     state->filter_only = filter_only;
-}
-
-static crv_status submit_and_wait(plan_state *state)
-{
-    const crv__device *d = state->program.device;
-    const VkCommandBufferSubmitInfo commands = {
-        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
-        .commandBuffer = state->commands};
-    const VkSubmitInfo2 submit = {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
-                                  .commandBufferInfoCount = 1,
-                                  .pCommandBufferInfos = &commands};
-    VkResult result = d->vk.QueueSubmit2(d->queue, 1, &submit, state->fence);
-    if (result)
-        return crv__device_fail(d, result, "submit");
-    result = d->vk.WaitForFences(d->device, 1, &state->fence, VK_TRUE, UINT64_MAX);
-    if (result == VK_SUCCESS)
-        result = d->vk.ResetFences(d->device, 1, &state->fence);
-    return result ? crv__device_fail(d, result, "run") : CRV_OK;
 }
 
 static crv_status run(const crv__work *work, int filter_only, const crv__plane planes[2],
@@ -256,19 +211,12 @@ static crv_status run(const crv__work *work, int filter_only, const crv__plane p
         return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
                          "vulkan: height fields and implicit surfaces are for the CPU "
                          "only; use a CPU context, or characteristic=depth");
-    const VkCommandBufferBeginInfo info = {
-        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-        .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
     pack(work, state, &planes[0], filter_only);
-    VkResult result = d->vk.ResetCommandPool(d->device, state->pool, 0);
-    if (result == VK_SUCCESS)
-        result = d->vk.BeginCommandBuffer(state->commands, &info);
-    if (result)
-        return crv__device_fail(d, result, "commands");
+    crv_status status = crv__commands_begin(&state->commands, d);
+    if (status)
+        return status;
     record(work, state, filter_only);
-    result = d->vk.EndCommandBuffer(state->commands);
-    const crv_status status =
-        result ? crv__device_fail(d, result, "commands") : submit_and_wait(state);
+    status = crv__commands_run(&state->commands, d);
     if (status)
         return status;
     const char *bytes = state->staging.block.mapped;
@@ -327,5 +275,10 @@ static void close_device(crv_context *context)
     crv__device_destroy(crv__device_of(context));
 }
 
-const crv__backend crv__vulkan_backend = {"vulkan", plan_create, plan_destroy,
-                                          run,      times,       close_device};
+const crv__backend crv__vulkan_backend = {.name = "vulkan",
+                                          .plan_create = plan_create,
+                                          .plan_destroy = plan_destroy,
+                                          .run = run,
+                                          .times = times,
+                                          .bandwidth = crv__device_bandwidth,
+                                          .close = close_device};

@@ -254,6 +254,14 @@ static crv_status open_host(crv__device *d, const crv_vulkan_host *host)
 
 /* ---- contexts ---- */
 
+double crv__device_seconds(const crv__device *d, uint64_t from, uint64_t to)
+{
+    const uint64_t mask =
+        d->timestamp_bits < 64 ? ((uint64_t)1 << d->timestamp_bits) - 1 : UINT64_MAX;
+    return (double)((to - from) & mask) * (double)d->properties.limits.timestampPeriod
+           * 1e-9;
+}
+
 void crv__device_destroy(crv__device *d)
 {
     if (!d)

@@ -37,6 +37,12 @@ crv__device *crv__device_of(const crv_context *context);
 /* Logs `what` with the name of the result; the status that it is. */
 crv_status crv__device_fail(const crv__device *d, VkResult result, const char *what);
 
+/* From one timestamp to a later one. */
+double crv__device_seconds(const crv__device *d, uint64_t from, uint64_t to);
+
+/* crv_context_device_bandwidth() (bandwidth.c). */
+crv_status crv__device_bandwidth(crv_context *context, double *bytes_per_s);
+
 /* NULL does nothing. */
 void crv__device_destroy(crv__device *d);
 

@@ -74,6 +74,7 @@
     F(CmdBindDescriptorSets)                                                             \
     F(CmdPushConstants)                                                                  \
     F(CmdDispatch)                                                                       \
+    F(CmdCopyImage)                                                                      \
     F(CmdCopyBufferToImage)                                                              \
     F(CmdCopyImageToBuffer)
 

@@ -124,10 +124,7 @@ crv_status crv__slot_times(const crv__slot *s, double times_ms[CRV__MOST_STEPS])
         return CRV_ERROR_NOT_READY;
     if (result)
         return crv__device_fail(d, result, "timestamps");
-    const uint64_t mask =
-        d->timestamp_bits < 64 ? ((uint64_t)1 << d->timestamp_bits) - 1 : UINT64_MAX;
     for (int32_t i = 0; i + 1 < s->query_count; i++)
-        times_ms[i] = (double)((ticks[i + 1] - ticks[i]) & mask)
-                      * (double)d->properties.limits.timestampPeriod * 1e-6;
+        times_ms[i] = crv__device_seconds(d, ticks[i], ticks[i + 1]) * 1e3;
     return CRV_OK;
 }

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* section_device.c: every method with every choice on a GPU, step by step, by its clock.
  */
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "bench/bench.h"
 #include "device.h"
@@ -37,8 +40,14 @@ static int time_steps(bench *b, crv_plan *plan, crv_gbuffer *gbuffer,
     return EXIT_DONE;
 }
 
+/* Steps between host and device may cross a bus, which is not the device's memory. */
+static bool is_transfer(const char *step)
+{
+    return strcmp(step, "upload") == 0 || strcmp(step, "download") == 0;
+}
+
 static void append(bench *b, const bench_case *c, crv_preset preset, double factor,
-                   steps *s)
+                   double bandwidth, steps *s)
 {
     const double pixels = (double)c->frame->width * (double)c->frame->height;
 
@@ -58,12 +67,16 @@ static void append(bench *b, const bench_case *c, crv_preset preset, double fact
         study_add_number(row, "ms", ms);
         study_add_number(row, "mpixels_per_s", pixels / ms * 1e-3);
         study_add_number(row, "gb_per_s", s->last[i].bytes / ms * 1e-6);
+        study_add_number(row, "share_of_bandwidth",
+                         is_transfer(s->last[i].name)
+                             ? NAN
+                             : s->last[i].bytes / (ms * 1e-3) / bandwidth);
         bench_append(b, "device_steps", row);
     }
 }
 
 static int measure(bench *b, crv_context *context, const bench_case *c, crv_preset preset,
-                   double factor)
+                   double factor, double bandwidth)
 {
     const size_t count = (size_t)c->frame->width * (size_t)c->frame->height;
     float *pixels = malloc(count * sizeof *pixels);
@@ -84,14 +97,15 @@ static int measure(bench *b, crv_context *context, const bench_case *c, crv_pres
                      "plan"))
         result = time_steps(b, plan, gbuffer, &image, &s);
     if (result == EXIT_DONE)
-        append(b, c, preset, factor, &s);
+        append(b, c, preset, factor, bandwidth, &s);
     crv_plan_destroy(plan);
     crv_gbuffer_destroy(gbuffer);
     free(pixels);
     return result;
 }
 
-static int run_frame(bench *b, crv_context *context, const bench_frame *frame)
+static int run_frame(bench *b, crv_context *context, const bench_frame *frame,
+                     double bandwidth)
 {
     const bench_choices *o = b->choices;
     const int32_t cases =
@@ -105,7 +119,7 @@ static int run_frame(bench *b, crv_context *context, const bench_frame *frame)
         bench_case c;
         result = bench_case_make(b, frame, m, p, f, o->radii[k], &c);
         if (result == EXIT_DONE)
-            result = measure(b, context, &c, o->presets[p], o->radii[k]);
+            result = measure(b, context, &c, o->presets[p], o->radii[k], bandwidth);
     }
     return result;
 }
@@ -124,6 +138,7 @@ static void print(const bench *b)
         {"ms", "ms", 3, 0},
         {"MPix/s", "mpixels_per_s", 1, 0},
         {"GB/s", "gb_per_s", 2, 0},
+        {"of the bandwidth, %", "share_of_bandwidth", 0, 100},
     };
 
     bench_print_list(b,
@@ -132,11 +147,27 @@ static void print(const bench *b)
                      "device_steps", columns, sizeof columns / sizeof columns[0]);
 }
 
+/* What the steps' bytes are compared with, in the same run. */
+static int measure_bandwidth(bench *b, crv_context *context, double *out)
+{
+    bench_progress(b, "bandwidth of %s", b->settings->common.device);
+    if (!report_ok(b->r, crv_context_device_bandwidth(context, out), "bandwidth"))
+        return EXIT_FAILED;
+    study_add_number(b->results, "device_bytes_per_s", *out);
+    if (b->print)
+        printf("The device copies %.1f GB/s, read and written.\n", *out * 1e-9);
+    return EXIT_DONE;
+}
+
 int bench_device_section(bench *b)
 {
     const bench_choices *o = b->choices;
     crv_context *context = NULL;
+    double bandwidth = NAN;
     int result = device_context(&b->settings->common, &b->r->logger, b->r, &context);
+
+    if (result == EXIT_DONE)
+        result = measure_bandwidth(b, context, &bandwidth);
 
     for (int32_t i = 0; i < b->source_count && result == EXIT_DONE; i++) {
         int32_t sizes = b->sources[i].path != NULL ? 1 : o->size_count;
@@ -147,7 +178,7 @@ int bench_device_section(bench *b)
                 &b->sources[i], o->sizes[s].width, o->sizes[s].height,
                 b->settings->common.threads.value, &b->quiet_logger, b->r, &frame);
             if (result == EXIT_DONE)
-                result = run_frame(b, context, &frame);
+                result = run_frame(b, context, &frame, bandwidth);
             bench_frame_free(&frame);
         }
     }
