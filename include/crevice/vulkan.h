@@ -146,7 +146,8 @@ CRV_API void crv_vulkan_pass_destroy(crv_vulkan_pass *pass);
 
 /* An image that is read. */
 typedef struct crv_vulkan_input {
-    VkImageView view; /* 2D, of one aspect; the size of the G-buffer */
+    /* 2D, of one aspect, the size of the G-buffer; its image has SAMPLED usage. */
+    VkImageView view;
     /* The layout that it is in: GENERAL, SHADER_READ_ONLY_OPTIMAL (default), or one of
      * the read-only depth layouts. It stays in it. */
     VkImageLayout layout;
