@@ -11,7 +11,8 @@
 
 typedef float vf __attribute__((vector_size(16)));
 typedef int32_t vi __attribute__((vector_size(16)));
-typedef vi vm; /* all bits of a lane */
+
+#include "lanewise.h"
 
 CRV__INLINE vf vf_set(float a)
 {
@@ -38,16 +39,6 @@ CRV__INLINE vi vi_load(const int32_t *from)
     return (vi)vld1q_s32(from);
 }
 
-CRV__INLINE vi vf_bits(vf a)
-{
-    return (vi)a;
-}
-
-CRV__INLINE vf vf_of_bits(vi a)
-{
-    return (vf)a;
-}
-
 CRV__INLINE vm vf_lt(vf a, vf b)
 {
     return (vm)vcltq_f32(a, b);
@@ -56,31 +47,6 @@ CRV__INLINE vm vf_lt(vf a, vf b)
 CRV__INLINE vm vf_le(vf a, vf b)
 {
     return (vm)vcleq_f32(a, b);
-}
-
-CRV__INLINE vm vi_lt(vi a, vi b)
-{
-    return a < b;
-}
-
-CRV__INLINE vm vi_eq(vi a, vi b)
-{
-    return a == b;
-}
-
-CRV__INLINE vm vm_and(vm a, vm b)
-{
-    return a & b;
-}
-
-CRV__INLINE vm vm_or(vm a, vm b)
-{
-    return a | b;
-}
-
-CRV__INLINE vm vm_not(vm a)
-{
-    return ~a;
 }
 
 CRV__INLINE int vm_any(vm a)
