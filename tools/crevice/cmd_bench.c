@@ -267,12 +267,7 @@ static void describe_command(const bench_settings *s, text *out)
     text_addf(out, " --repeats %d --seconds %g", s->repeats.value, s->seconds.value);
     if (s->common.threads.given)
         text_addf(out, " --threads %d", s->common.threads.value);
-    if (s->common.device != NULL)
-        text_addf(out, " --device %s", s->common.device);
-    if (s->common.isa.value > 0)
-        text_addf(out, " --isa %s", crv_isa_name((crv_isa)(s->common.isa.value - 1)));
-    if (s->common.exact)
-        text_add(out, " --exact");
+    device_describe(&s->common, out);
 }
 
 static int describe(bench *b)

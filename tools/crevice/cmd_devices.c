@@ -68,7 +68,7 @@ static int run(const void *settings, report *r)
     cJSON *list = cJSON_AddArrayToObject(root, "vulkan");
     crv_device_info info;
     int32_t count = 0;
-    char *text;
+    char *line;
 
     device_list_isas(sets, sizeof sets);
     if (!s->json)
@@ -85,13 +85,13 @@ static int run(const void *settings, report *r)
         cJSON_AddStringToObject(root, "vulkan_missing", why);
     if (count == 0 && !s->json)
         printf("%s\n", why);
-    text = s->json ? cJSON_Print(root) : NULL;
+    line = s->json ? cJSON_Print(root) : NULL;
     cJSON_Delete(root);
-    if (s->json && text == NULL)
+    if (s->json && line == NULL)
         return report_no_memory(r);
-    if (text != NULL)
-        puts(text);
-    cJSON_free(text);
+    if (line != NULL)
+        puts(line);
+    cJSON_free(line);
     return EXIT_DONE;
 }
 

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "commands.h"
+#include "device.h"
 #include "study/machine.h"
 #include "study/sections.h"
 #include "study/text.h"
@@ -164,12 +165,7 @@ static void describe_command(const report_settings *s, text *out)
               s->rays.value);
     if (s->common.threads.value > 0)
         text_addf(out, " --threads %d", s->common.threads.value);
-    if (s->common.device != NULL)
-        text_addf(out, " --device %s", s->common.device);
-    if (s->common.isa.value > 0)
-        text_addf(out, " --isa %s", crv_isa_name((crv_isa)(s->common.isa.value - 1)));
-    if (s->common.exact)
-        text_add(out, " --exact");
+    device_describe(&s->common, out);
 }
 
 static int write_introduction(const report_settings *settings, study *s)

@@ -43,23 +43,33 @@ void device_list_isas(char *out, size_t size)
                                      used > 0 ? ", " : "", crv_isa_name((crv_isa)i));
 }
 
+void device_describe(const common_settings *common, text *out)
+{
+    if (common->device != NULL)
+        text_addf(out, " --device %s", common->device);
+    if (common->isa.value > 0)
+        text_addf(out, " --isa %s", isa_choices[common->isa.value]);
+    if (common->exact)
+        text_add(out, " --exact");
+}
+
 bool device_is_cpu(const common_settings *common)
 {
     return common->device == NULL || strcmp(common->device, "cpu") == 0;
 }
 
 /* Reads --device; false where it names nothing. */
-static bool parse_device(const char *text, crv_context_desc *desc)
+static bool parse_device(const char *name, crv_context_desc *desc)
 {
     int index = 0, end = 0;
 
-    if (text == NULL || strcmp(text, "cpu") == 0)
+    if (name == NULL || strcmp(name, "cpu") == 0)
         return true;
     desc->device = CRV_DEVICE_VULKAN;
-    if (strcmp(text, "vulkan") == 0)
+    if (strcmp(name, "vulkan") == 0)
         return true;
-    if (strspn(text + strcspn(text, ":"), ":0123456789") > 4
-        || sscanf(text, "vulkan:%d%n", &index, &end) != 1 || text[end] != '\0'
+    if (strspn(name + strcspn(name, ":"), ":0123456789") > 4
+        || sscanf(name, "vulkan:%d%n", &index, &end) != 1 || name[end] != '\0'
         || index < 0)
         return false;
     desc->device_index = index;

@@ -4,6 +4,7 @@
 #define TOOL_DEVICE_H
 
 #include "args.h"
+#include "study/text.h"
 
 /* A context with the logger; the caller destroys it. EXIT_USAGE with an error line where
  * this machine lacks what was asked for. */
@@ -16,6 +17,9 @@ int device_context_in(const common_settings *common, const crv_logger *logger,
 
 /* Whether --device chooses the CPU, the only one to which --isa and --exact apply. */
 bool device_is_cpu(const common_settings *common);
+
+/* Appends the arguments that choose the device, as the user would write them. */
+void device_describe(const common_settings *common, text *out);
 
 /* Writes the names of the CPU's instruction sets that are here, ", " between them. */
 void device_list_isas(char *out, size_t size);

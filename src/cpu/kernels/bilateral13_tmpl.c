@@ -147,23 +147,9 @@ CRV__INLINE void down_block(const crv__frame *f, const crv__plane *input,
         crv__block_store(out, x, y + i, c[i].depth, s[i].values / s[i].weights);
 }
 
-CRV__NOINLINE void across_fast(const crv__frame *f, const crv__plane *input,
-                               const crv__plane *out, int32_t x, int32_t y)
-{
-    if (f->params->filter_normal > 0)
-        across_block(f, input, out, x, y, 1);
-    else
-        across_block(f, input, out, x, y, 0);
-}
+CRV__BLOCK_FILTER(across_fast, across_block)
 
-CRV__NOINLINE void down_fast(const crv__frame *f, const crv__plane *input,
-                             const crv__plane *out, int32_t x, int32_t y)
-{
-    if (f->params->filter_normal > 0)
-        down_block(f, input, out, x, y, 1);
-    else
-        down_block(f, input, out, x, y, 0);
-}
+CRV__BLOCK_FILTER(down_fast, down_block)
 
 void CRV__NAME(bilateral13)(const crv__frame *f, const crv__plane *input,
                             const crv__plane *out, crv__tile tile);

@@ -121,6 +121,17 @@ CRV__INLINE int crv__block_is_empty(const crv__frame *f, int32_t x, int32_t y,
 typedef void (*crv__block_filter)(const crv__frame *, const crv__plane *,
                                   const crv__plane *, int32_t, int32_t);
 
+/* Defines the block filter `name` as function(..., with_normals), compiled for both. */
+#define CRV__BLOCK_FILTER(name, function)                                                \
+    CRV__NOINLINE void name(const crv__frame *f, const crv__plane *input,                \
+                            const crv__plane *out, int32_t x, int32_t y)                 \
+    {                                                                                    \
+        if (f->params->filter_normal > 0)                                                \
+            function(f, input, out, x, y, 1);                                            \
+        else                                                                             \
+            function(f, input, out, x, y, 0);                                            \
+    }
+
 /* One pass over a rectangle: `fast` for blocks of `rows` rows whose window reaches so
  * far, `slow` for the pixels that are left. */
 CRV__INLINE void crv__filter_pass(const crv__frame *f, const crv__plane *input,

@@ -94,14 +94,7 @@ CRV__INLINE void block(const crv__frame *f, const crv__plane *input,
         crv__block_store(out, x, y + i, c[i].depth, s[i].values / s[i].weights);
 }
 
-CRV__NOINLINE void fast(const crv__frame *f, const crv__plane *input,
-                        const crv__plane *out, int32_t x, int32_t y)
-{
-    if (f->params->filter_normal > 0)
-        block(f, input, out, x, y, 1);
-    else
-        block(f, input, out, x, y, 0);
-}
+CRV__BLOCK_FILTER(fast, block)
 
 void CRV__NAME(gauss5)(const crv__frame *f, const crv__plane *input,
                        const crv__plane *out, crv__tile tile);
