@@ -2,9 +2,9 @@
 /*
  * The scalar statement of the fast structure, written from its description: 16 pixels of
  * a row, every fourth column of a span of 64, share a few buckets of projected radii,
- * four an octave, of which one serves its neighbours. Else the methods are the scalar
- * ones: where a radius is projected they use focal lengths, which nothing else of them
- * reads, so that another radius is other focal lengths.
+ * four an octave and for vo sixteen, of which one serves its neighbours. Else the methods
+ * are the scalar ones: where a radius is projected they use focal lengths, which nothing
+ * else of them reads, so that another radius is other focal lengths.
  */
 #include "fast.h"
 
@@ -41,12 +41,18 @@ static int is_surface(const statement *s, int32_t x, int32_t y)
            && *crv__plane_at(&s->frame.depth[0], x, y) < s->background;
 }
 
+/* Buckets of an octave. */
+static int32_t fineness(const simd_case *c)
+{
+    return strcmp(c->options.method->name, "vo") == 0 ? 16 : 4;
+}
+
 /* What the radii of a phase are multiplied with before they are sorted into buckets. */
-static float scale_of(int32_t px, int32_t py)
+static float scale_of(const statement *s, int32_t px, int32_t py)
 {
     static const int RANK[4][4] = {
         {0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
-    return exp2f(0.25f * (((float)RANK[py][px] + 0.5f) / 16 - 0.5f));
+    return exp2f((((float)RANK[py][px] + 0.5f) / 16 - 0.5f) / (float)fineness(s->c));
 }
 
 /* The vertical projected radius in pixels. */
@@ -57,7 +63,7 @@ static float radius_at(const statement *s, int32_t x, int32_t y)
     return p->radius * p->fy * (p->orthographic ? 1 : 1 / d);
 }
 
-/* Buckets begin at 1, 1.25, 1.5 and 1.75 times powers of two, the first at 1/2. -1: no
+/* Buckets part the space between powers of two evenly, the first begins at 1/2. -1: no
  * surface, or beyond all. */
 static int32_t bucket_at(const statement *s, int32_t x, int32_t y)
 {
@@ -66,7 +72,8 @@ static int32_t bucket_at(const statement *s, int32_t x, int32_t y)
     if (!is_surface(s, x, y))
         return -1;
     float radius = radius_at(s, x, y);
-    if (!(radius < 0.5f * (1 << OCTAVES) * exp2f(-0.125f) * 0.99f))
+    const int32_t parts = fineness(s->c);
+    if (!(radius < 0.5f * (1 << OCTAVES) * exp2f(-0.5f / (float)parts) * 0.99f))
         return -1;
     if (is_walk) {
         const float cap =
@@ -74,10 +81,10 @@ static int32_t bucket_at(const statement *s, int32_t x, int32_t y)
         radius = fminf(radius, cap);
     }
     radius =
-        fmaxf(radius * scale_of((x + s->left) % PHASES, (y + s->top) % PHASES), 0.5f);
+        fmaxf(radius * scale_of(s, (x + s->left) % PHASES, (y + s->top) % PHASES), 0.5f);
     int exponent;
     const float mantissa = 2 * frexpf(radius, &exponent);
-    return 4 * exponent + (int32_t)((mantissa - 1) * 4);
+    return parts * exponent + (int32_t)((mantissa - 1) * (float)parts);
 }
 
 /* The bucket that serves the pixel: of the group's buckets in rising order, the lowest
@@ -106,11 +113,12 @@ static int32_t serving_bucket(const statement *s, int32_t x, int32_t y)
 }
 
 /* The radius of the middle depth of a bucket. */
-static float radius_of(int32_t bucket)
+static float radius_of(const statement *s, int32_t bucket)
 {
-    const float octave = exp2f((float)(bucket / 4 - 1));
-    const float low = octave * (1 + (float)(bucket % 4) / 4),
-                high = octave * (1 + (float)(bucket % 4 + 1) / 4);
+    const int32_t parts = fineness(s->c);
+    const float octave = exp2f((float)(bucket / parts - 1));
+    const float low = octave * (1 + (float)(bucket % parts) / (float)parts),
+                high = octave * (1 + (float)(bucket % parts + 1) / (float)parts);
     return 2 * low * high / (low + high);
 }
 
@@ -184,7 +192,7 @@ static int has_structure(const simd_case *c)
     const int32_t samples = is_walk ? o->directions * o->steps : o->samples;
     const int paired = strcmp(o->method->name, "alchemy") != 0
                        && (is_walk ? o->directions : o->samples) % 2 == 0;
-    const double table = 48.0 * samples / (1 + paired) * 16 * OCTAVES * 4;
+    const double table = 48.0 * samples / (1 + paired) * 16 * OCTAVES * fineness(c);
     return (o->noise_size == 1 || o->noise_size == 2 || o->noise_size == 4)
            && c->desc.layers <= (crv__method_of(o->method)->volumetric ? 1 : 3)
            && table <= (2 << 20); /* more only where the picture is large */
@@ -198,8 +206,8 @@ static float value_at(statement *s, int32_t x, int32_t y, int structure, int *ha
     if (is_surface(s, x, y)) {
         *has_bucket = structure && bucket_at(s, x, y) >= 0;
         const float radius =
-            *has_bucket ? radius_of(serving_bucket(s, x, y))
-                              / scale_of((x + s->left) % PHASES, (y + s->top) % PHASES)
+            *has_bucket ? radius_of(s, serving_bucket(s, x, y))
+                              / scale_of(s, (x + s->left) % PHASES, (y + s->top) % PHASES)
                         : 0;
         if (!*has_bucket)
             a = crv__method_of(s->c->options.method)->accessibility(&s->frame, x, y);

@@ -130,7 +130,7 @@ static void the_mean_is_the_exact_one(void **state)
 static void many_samples_converge_to_the_exact_value(void **state)
 {
     (void)state;
-    enum { EDGE = 640 }; /* for tables of so many samples the picture must be large */
+    enum { EDGE = 800 }; /* for tables of so many samples the picture must be large */
     static const double GROOVE[] = {5};
     const crv_camera camera = crv_camera_orthographic(EDGE, EDGE, 4);
     fixture f = fixture_make(fixture_groove, GROOVE, &camera, EDGE, EDGE);

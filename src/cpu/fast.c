@@ -46,7 +46,8 @@ static int measure(crv__fast_state *s, const crv__setup *setup)
     fast->paired = s->kind->in_pairs && count % 2 == 0;
     fast->walks = is_walk ? count / (1 + fast->paired) : 1;
     fast->steps = is_walk ? o->steps : count / (1 + fast->paired);
-    fast->buckets = OCTAVES * 4;
+    fast->buckets = OCTAVES << s->kind->fineness;
+    fast->shift = CRV__FAST_MANTISSA - s->kind->fineness;
     fast->left = wrapped((int64_t)d->origin_x - d->guard_left, CRV__FAST_SPAN);
     fast->top = wrapped((int64_t)d->origin_y - d->guard_top, CRV__FAST_PHASES);
     fast->columns = (fast->left + d->width + CRV__FAST_PHASES - 1) / CRV__FAST_PHASES;
@@ -77,15 +78,16 @@ static int suits(const crv__setup *setup, const crv__fast_kind *kind)
            && !(setup->method->volumetric && setup->desc.layers > 1);
 }
 
-/* The scales of the phases spread the borders between buckets over an octave's quarter,
- * so that no border is seen. */
-static void fill_scales(crv__fast *fast)
+/* The scales of the phases spread the borders between buckets over a bucket's width, so
+ * that no border is seen. */
+static void fill_scales(crv__fast *fast, int32_t fineness)
 {
     static const float RANK[PHASES] = {0, 8,  2, 10, 12, 4, 14, 6,
                                        3, 11, 1, 9,  15, 7, 13, 5};
+    const float width = 1.0f / (float)(1 << fineness);
     for (int32_t i = 0; i < PHASES; i++)
-        fast->scale[i] = exp2f(0.25f * ((RANK[i] + 0.5f) / PHASES - 0.5f));
-    fast->largest = CRV__FAST_SMALLEST * (1 << OCTAVES) * exp2f(-0.125f) * 0.99f;
+        fast->scale[i] = exp2f(((RANK[i] + 0.5f) / PHASES - 0.5f) * width);
+    fast->largest = CRV__FAST_SMALLEST * (1 << OCTAVES) * exp2f(-0.5f * width) * 0.99f;
 }
 
 static crv_status allocate(crv__fast_state *s, const crv_allocator *allocator)
@@ -112,7 +114,7 @@ crv_status crv__fast_create(const crv__setup *setup, crv__fast_state **state)
     if (!suits(setup, measured.kind) || !measure(&measured, setup))
         return CRV_OK;
     measured.deal = kernels->deal;
-    fill_scales(&measured.fast);
+    fill_scales(&measured.fast, measured.kind->fineness);
     crv__fast_state *s = crv__allocate(allocator, 1, sizeof *s);
     if (!s)
         return CRV_ERROR_OUT_OF_MEMORY;
@@ -141,9 +143,8 @@ void crv__fast_destroy(const crv__setup *setup, crv__fast_state *s)
     crv__release(allocator, s, 1, sizeof *s);
 }
 
-static float radius_of_bits(uint32_t bucket)
+static float radius_of_bits(uint32_t bits)
 {
-    const uint32_t bits = bucket << CRV__FAST_SHIFT;
     float radius;
     memcpy(&radius, &bits, sizeof radius);
     return radius;
@@ -151,10 +152,11 @@ static float radius_of_bits(uint32_t bucket)
 
 /* The projected radius, before the phase's scale, in the middle of the depths that share
  * this bucket. */
-static float radius_of(int32_t bucket)
+static float radius_of(const crv__fast *fast, int32_t bucket)
 {
-    const uint32_t first = (uint32_t)(bucket + CRV__FAST_FIRST);
-    const float low = radius_of_bits(first), high = radius_of_bits(first + 1);
+    const uint32_t bits = CRV__FAST_SMALLEST_BITS + ((uint32_t)bucket << fast->shift);
+    const float low = radius_of_bits(bits),
+                high = radius_of_bits(bits + (1u << fast->shift));
     return 2 * low * high / (low + high);
 }
 
@@ -232,7 +234,7 @@ static void fill_list(const fill_job *job, uint32_t index)
     const crv__noise_texel *noise =
         &job->frame->noise[phase / CRV__FAST_PHASES % p->noise_size * p->noise_size
                            + px % p->noise_size];
-    const float radius = radius_of((int32_t)index / PHASES) / fast->scale[phase];
+    const float radius = radius_of(fast, (int32_t)index / PHASES) / fast->scale[phase];
     crv__fast_reach reach = {.radius = radius};
     for (int32_t k = 0; k < fast->walks; k++) {
         const size_t first =

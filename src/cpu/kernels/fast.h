@@ -4,7 +4,7 @@
  *
  * Pixels are dealt out to the 4x4 phases of the noise tile. All pixels of a phase share
  * rotation and jitter, so once their projected radius is quantised, to buckets of a
- * quarter of an octave, they share every sample's offset as well: offsets are scalars
+ * small part of an octave, they share every sample's offset as well: offsets are scalars
  * that stand in a table for each bucket and phase, and reading 16 samples is one load.
  *
  * Depth is stored by phases of x: each row is four segments, segment s holding the
@@ -65,6 +65,7 @@ typedef struct crv__fast {
 
     /* a list of samples for each bucket and phase: `walks` times at most `steps` */
     int32_t buckets, walks, steps;
+    int32_t shift;  /* of a radius' bits to its bucket */
     float cap;      /* of the radius, vertically, pixels */
     float largest;  /* projected radius that has a bucket in every phase, pixels */
     int32_t paired; /* 0 or 1: every walk has one opposite to it */
@@ -76,9 +77,9 @@ typedef struct crv__fast {
 } crv__fast;
 
 /* The bucket of a projected radius in pixels (vertically, times the phase's scale) is its
- * float's exponent and upper two bits of the mantissa, from this radius on. */
+ * float's exponent and upper bits of the mantissa, from this radius on. */
 #define CRV__FAST_SMALLEST 0.5f
-enum { CRV__FAST_SHIFT = 21, CRV__FAST_FIRST = 0x3f000000 >> CRV__FAST_SHIFT };
+enum { CRV__FAST_SMALLEST_BITS = 0x3f000000, CRV__FAST_MANTISSA = 23 };
 
 /* Accessibility, as a crv__estimate_kernel computes it, of the groups that begin at
  * columns first to last - 1 (in spans) of row y, all four phases of x; to out, `width`

@@ -126,7 +126,8 @@ CRV__INLINE int crv__fast_buckets(const crv__fast *fast, const crv__params *p,
         const vm surface = vf_lt(d, background);
         const vm within = vf_lt(r, vf_set(fast->largest));
         far = vm_or(far, vm_and(surface, vm_not(within)));
-        const vi bucket = (vf_bits(capped) >> CRV__FAST_SHIFT) - vi_set(CRV__FAST_FIRST);
+        const vi bucket =
+            (vf_bits(capped) - vi_set(CRV__FAST_SMALLEST_BITS)) >> fast->shift;
         const vi own = vi_select(vm_and(surface, within), bucket, vi_set(-1));
         vf_store(inverses + i, inverse);
         __builtin_memcpy(buckets + i, &own, sizeof own);
