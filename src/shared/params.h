@@ -14,6 +14,10 @@
 #include <stdint.h>
 #endif
 
+/* The steepest slope of depth from pixel to pixel that filters follow: a window's steps
+ * along both axes cannot overflow. */
+#define CRV__STEEPEST 1e37f
+
 struct crv__params {
     int32_t width, height; /* of the buffers, guard band included */
     int32_t layers;

@@ -29,63 +29,75 @@ CRV__NOINLINE void slowly(const crv__frame *f, const crv__plane *input, int32_t 
     crv__filter_pixels(f, input, x, y, count, out, filter);
 }
 
-/* Adds the taps of one column of the window, `row` rows from the block's first. `level`
- * is what the centres' depths become there. */
-CRV__INLINE void add_row(sums s[CRV__BLOCK_ROWS], const crv__limits *limits,
+/* Adds the tap of a column to all that reach its row, counted from the block's first.
+ * `level` is what the centres' depths become in that column. */
+CRV__INLINE void add_tap(sums s[CRV__BLOCK_ROWS], const crv__limits *limits,
                          const crv__centre c[CRV__BLOCK_ROWS],
-                         const vf level[CRV__BLOCK_ROWS], const crv__texel *tap,
-                         int32_t row, int with_normals)
+                         const vf level[CRV__BLOCK_ROWS], crv__block *at, int32_t row,
+                         int with_normals)
 {
+    const crv__texel tap = crv__block_texel(at, 0, 0);
 #define CENTRE(i)                                                                        \
-    if (row - (i) >= FIRST && row - (i) <= LAST) {                                       \
-        const vf expected = crv__block_step(level[i], c[i].slope_y, row - (i));          \
-        vm in = vf_le(vf_abs(tap->depth - expected), limits->depth);                     \
-        if (with_normals)                                                                \
-            in = vm_and(in, vf_lt(vf_zero(), crv__block_likeness(limits, &c[i], tap)));  \
-        s[i].values = s[i].values + vf_where(in, tap->value);                            \
-        s[i].count = s[i].count + vf_where(in, vf_set(1));                               \
-    }
-    CENTRE(0)
-    CENTRE(1)
+    do {                                                                                 \
+        const int32_t dy = row - (i);                                                    \
+        if (dy >= FIRST && dy <= LAST) {                                                 \
+            const vf expected = crv__block_step(level[i], c[i].slope_y, dy);             \
+            vm in = vf_le(vf_abs(tap.depth - expected), limits->depth);                  \
+            if (with_normals)                                                            \
+                in = vm_and(in,                                                          \
+                            vf_lt(vf_zero(), crv__block_likeness(limits, &c[i], &tap))); \
+            s[i].values = s[i].values + vf_where(in, tap.value);                         \
+            s[i].count = s[i].count + vf_where(in, vf_set(1));                           \
+        }                                                                                \
+    } while (0)
+    CENTRE(0);
+    CENTRE(1);
 #undef CENTRE
+    crv__block_move(at, 1, 0);
 }
 
-CRV__INLINE void block(const crv__frame *f, const crv__plane *input,
-                       const crv__plane *out, int32_t x, int32_t y, int with_normals)
+CRV__INLINE void add_column(sums s[CRV__BLOCK_ROWS], const crv__limits *limits,
+                            const crv__centre c[CRV__BLOCK_ROWS], crv__block *at,
+                            int32_t dx, int with_normals)
 {
-    const crv__limits limits = crv__limits_of(f->params);
+    vf level[CRV__BLOCK_ROWS];
+    for (int32_t i = 0; i < CRV__BLOCK_ROWS; i++)
+        level[i] = crv__block_step(c[i].depth, c[i].slope_x, dx);
+    add_tap(s, limits, c, level, at, -2, with_normals);
+    add_tap(s, limits, c, level, at, -1, with_normals);
+    add_tap(s, limits, c, level, at, 0, with_normals);
+    add_tap(s, limits, c, level, at, 1, with_normals);
+    add_tap(s, limits, c, level, at, 2, with_normals);
+    crv__block_move(at, FIRST - LAST - CRV__BLOCK_ROWS, 1);
+}
+
+CRV__INLINE void block(const crv__block *b, const crv__limits *limits, float *out,
+                       ptrdiff_t out_pitch, int with_normals, int with_slopes)
+{
     crv__centre c[CRV__BLOCK_ROWS];
     sums s[CRV__BLOCK_ROWS];
     for (int32_t i = 0; i < CRV__BLOCK_ROWS; i++) {
-        c[i] = crv__block_centre(f, &limits, x, y + i, 1, 1);
+        c[i] = crv__block_centre(b, limits, i, with_slopes, 1, 1);
         s[i] = (sums){vf_zero(), vf_zero()};
     }
-    for (int32_t dx = FIRST; dx <= LAST; dx++) {
-        vf level[CRV__BLOCK_ROWS];
-        for (int32_t i = 0; i < CRV__BLOCK_ROWS; i++)
-            level[i] = c[i].depth + vf_set((float)dx) * c[i].slope_x;
-#define ROW(row)                                                                         \
-    do {                                                                                 \
-        const crv__texel tap = crv__block_texel(f, input, x + dx, y + (row));            \
-        add_row(s, &limits, c, level, &tap, row, with_normals);                          \
-    } while (0)
-        ROW(-2);
-        ROW(-1);
-        ROW(0);
-        ROW(1);
-        ROW(2);
-#undef ROW
-    }
+    crv__block at = *b;
+    crv__block_move(&at, FIRST, FIRST);
+    add_column(s, limits, c, &at, -2, with_normals);
+    add_column(s, limits, c, &at, -1, with_normals);
+    add_column(s, limits, c, &at, 0, with_normals);
+    add_column(s, limits, c, &at, 1, with_normals);
     for (int32_t i = 0; i < CRV__BLOCK_ROWS; i++)
-        crv__block_store(out, x, y + i, c[i].depth, s[i].values / s[i].count);
+        crv__block_store(out + i * out_pitch, c[i].depth, s[i].values / s[i].count);
 }
 
-CRV__BLOCK_FILTER(fast, block)
+CRV__BLOCK_RUN(run, block, CRV__BLOCK_ROWS)
+
+static const crv__filter_ways WAYS = {CRV__BLOCK_ROWS, -FIRST, -FIRST, run, slowly};
 
 void CRV__NAME(box4)(const crv__frame *f, const crv__plane *input, const crv__plane *out,
                      crv__tile tile);
 void CRV__NAME(box4)(const crv__frame *f, const crv__plane *input, const crv__plane *out,
                      crv__tile tile)
 {
-    crv__filter_pass(f, input, out, tile, CRV__BLOCK_ROWS, -FIRST, -FIRST, fast, slowly);
+    crv__filter_pass(f, input, out, tile, &WAYS);
 }
