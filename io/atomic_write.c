@@ -139,6 +139,13 @@ int io__output_open(io__output *output, const char *path, const crv_logger *log)
         return -1;
     }
     const int descriptor = open_temporary(&made);
+    struct stat former;
+    if (descriptor >= 0 && !stat(made.target, &former)) {
+        /* What is replaced keeps its permissions; where that is refused, as some
+         * network's file systems do, the picture matters more. */
+        if (fchmod(descriptor, former.st_mode & 07777))
+            errno = 0;
+    }
     if (descriptor >= 0)
         made.stream = fdopen(descriptor, "wb");
     if (!made.stream) {

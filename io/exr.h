@@ -10,7 +10,7 @@
 typedef struct io__exr_channel {
     int part;
     int32_t index; /* in the part's channel list */
-    bool subsampled;
+    bool subsampled, is_half;
     char name[IO_NAME_SIZE]; /* as io_channel.name */
 } io__exr_channel;
 

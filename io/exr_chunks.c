@@ -68,6 +68,20 @@ static exr_result_t find_chunk(const io__exr *exr, int part, const part_layout *
                                         layout->min_y + row * layout->chunk_height, info);
 }
 
+/* OpenEXR's C interface unpacks but the first of several float channels wrongly. */
+static bool is_misread(const io__exr *exr, int part, exr_compression_t compression)
+{
+    const exr_attr_chlist_t *channels = NULL;
+    int floats = 0;
+    if (compression != EXR_COMPRESSION_B44 && compression != EXR_COMPRESSION_B44A)
+        return false;
+    if (exr_get_channels(exr->context, part, &channels) != EXR_ERR_SUCCESS)
+        return true;
+    for (int i = 0; i < channels->num_channels; i++)
+        floats += channels->entries[i].pixel_type != EXR_PIXEL_HALF;
+    return floats > 1;
+}
+
 /* OpenEXR itself would fill what an uncompressed file lacks with zeros. */
 int io__exr_check_part(io__exr *exr, int part)
 {
@@ -78,6 +92,10 @@ int io__exr_check_part(io__exr *exr, int part)
     if (find_layout(exr, part, &layout))
         return -1;
     exr_get_compression(exr->context, part, &compression);
+    if (is_misread(exr, part, compression))
+        return io__fail(exr->file->log, exr->file->path,
+                        "has several 32-bit channels in B44 compression, which OpenEXR's "
+                        "C interface misreads; write it with ZIP or PIZ compression");
     const uint64_t chunks = (uint64_t)layout.columns * (uint64_t)layout.rows;
     if (chunks > size / sizeof(uint64_t)) {
         snprintf(exr->detail, sizeof exr->detail, "it is shorter than its table");

@@ -120,6 +120,7 @@ static int list_part(io__exr *exr, int part)
         io__exr_channel *channel = &exr->channels[exr->channel_count];
         *channel = (io__exr_channel){.part = part,
                                      .index = i,
+                                     .is_half = entry->pixel_type == EXR_PIXEL_HALF,
                                      .subsampled = entry->x_sampling != 1
                                                    || entry->y_sampling != 1};
         if (!entry->name.str
@@ -247,7 +248,9 @@ int io__exr_list(const io__exr *exr, io_image *image)
         return io__fail(exr->file->log, exr->file->path,
                         "no memory for its list of channels; close other programs");
     image->channel_count = exr->channel_count;
-    for (int32_t i = 0; i < exr->channel_count; i++)
+    for (int32_t i = 0; i < exr->channel_count; i++) {
         memcpy(image->channels[i].name, exr->channels[i].name, IO_NAME_SIZE);
+        image->channels[i].is_half = exr->channels[i].is_half;
+    }
     return 0;
 }

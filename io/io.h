@@ -19,8 +19,9 @@
 typedef struct io_channel {
     char name[IO_NAME_SIZE]; /* full name; in multi-part files "part.channel" unless the
                                 channel's name already begins with the part's */
-    float *data; /* width * height floats, packed, top row first; NULL in an image
-                    from io_probe() */
+    float *data;  /* width * height floats, packed, top row first; NULL in an image
+                     from io_probe() */
+    bool is_half; /* of io_probe(): the file stores half floats */
 } io_channel;
 
 /* Row-vector matrices as OpenEXR stores them: p' = (x, y, z, 1) * M, row-major. */

@@ -259,19 +259,32 @@ static size_t normal_base_length(const char *name)
     return length >= 2 && (last == 'X' || last == 'x') ? length - 1 : 0;
 }
 
+/* The length of what stands before the layer of a depth, its dot included. Of "right.Z"
+ * that is all but the Z: "right" is no name for depth, but a view or a layer. */
+static size_t depth_prefix_length(const char *depth)
+{
+    const split_name s = split(depth, true);
+    if (!s.component[0] || depth_rank_of(depth, true) < NO_MATCH)
+        return s.prefix;
+    return s.prefix + s.layer_length + 1;
+}
+
+static bool is_together(const char *depth, const char *name, size_t prefix)
+{
+    return prefix == depth_prefix_length(depth) && !strncasecmp(name, depth, prefix);
+}
+
 static int normal_rank(const char *name, size_t length, const char *depth)
 {
     const char *layer = name + length;
     while (layer > name && layer[-1] != '.')
         layer--;
     const size_t prefix = (size_t)(layer - name);
-    const size_t depth_prefix = split(depth, true).prefix;
     for (size_t i = 0; i < COUNT(normal_layers); i++)
         if (same_text(layer, length - prefix, normal_layers[i])) {
             /* Of the same view layer as the depth, if possible. */
-            const bool together =
-                prefix == depth_prefix && !strncasecmp(name, depth, prefix);
-            return (int)i * 2 + (together ? 0 : 1);
+            return (is_together(depth, name, prefix) ? 0 : (int)COUNT(normal_layers))
+                   + (int)i;
         }
     return NO_MATCH;
 }
@@ -294,6 +307,12 @@ static void find_normals(const char *path, const io_image *probed, io__pass_name
         memcpy(out->normal, found, sizeof found);
         snprintf(out->normal_base, sizeof out->normal_base, "%.*s", (int)length, name);
     }
+    if (matches && best_rank >= (int)COUNT(normal_layers))
+        io__warn(
+            log, path,
+            "normals \"%s\" are of another layer than depth \"%s\"; choose them with "
+            "--normal NAME, or --normal none",
+            out->normal_base, out->depth[0]);
     if (matches > 1)
         io__info(log, path,
                  "several layers may be normals; \"%s\" is used (choose with --normal "
@@ -310,6 +329,11 @@ static int choose_normals(const char *path, const io_image *probed, const char *
     }
     if (!strcasecmp(wanted, "none"))
         return 0;
+    if (io_image_find(probed, wanted))
+        return io__fail(log, path,
+                        "\"%.255s\" is one channel; name normals without their .X .Y .Z, "
+                        "as N of N.X N.Y N.Z",
+                        wanted);
     if (strlen(wanted) >= IO_NAME_SIZE
         || !find_components(probed, wanted, strlen(wanted), out->normal))
         return io__fail_channel(log, path, wanted, probed);

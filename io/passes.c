@@ -195,6 +195,18 @@ static crv_depth_format settle_format(const io_passes_request *request)
     return format;
 }
 
+static void tell_of_half(const char *path, const io_image *probed, const char *depth,
+                         const crv_logger *log)
+{
+    const io_channel *channel = io_image_find(probed, depth);
+    if (channel && channel->is_half)
+        io__info(
+            log, path,
+            "depth \"%s\" is stored in half floats, whose steps darken flat surfaces "
+            "far away; write it in 32-bit floats",
+            depth);
+}
+
 int io_frame_load(const char *path, const io_passes_request *request, io_frame *out,
                   const crv_logger *log)
 {
@@ -214,6 +226,7 @@ int io_frame_load(const char *path, const io_passes_request *request, io_frame *
         io_frame_free(&frame);
         return -1;
     }
+    tell_of_half(path, &probed, names.depth[0], log);
     io_image_free(&probed);
     frame.desc.layer_kind = names.layer_kind;
     const bool given_normals = names.normal[0] != NULL;

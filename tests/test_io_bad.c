@@ -82,6 +82,32 @@ static void test_truncated(void **state)
         }
 }
 
+/* B44 leaves 32-bit numbers as they are; the C interface finds but the first channel of
+ * them. What cannot be read must be refused, and one such channel can be read. */
+static void test_b44(void **state)
+{
+    (void)state;
+    for (int floats = 1; floats <= 2; floats++) {
+        support_part part = {
+            .storage = EXR_STORAGE_SCANLINE,
+            .compression = EXR_COMPRESSION_B44,
+            .width = 64,
+            .height = 70,
+            .channel_count = 2,
+            .channels = {"N.X", "Z"},
+            .types = {floats == 2 ? EXR_PIXEL_FLOAT : EXR_PIXEL_HALF, EXR_PIXEL_FLOAT}};
+        io_image image = {0};
+        support_make_exr(support_path("b44.exr"), &part, 1, NULL, NULL, NULL);
+        support_forget();
+        const int code =
+            io_read(support_path("b44.exr"), NULL, 0, &image, support_logger());
+        assert_int_equal(code, floats == 2 ? -1 : 0);
+        if (floats == 2)
+            support_expect_error(support_path("b44.exr"), "ZIP");
+        io_image_free(&image);
+    }
+}
+
 /* Damage may go unnoticed, since the formats have no checksums everywhere, but must not
  * crash or write outside (for the sanitizers to see). */
 static void test_flipped_bytes(void **state)
@@ -303,11 +329,11 @@ static void test_bad_images(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_truncated),       cmocka_unit_test(test_flipped_bytes),
-        cmocka_unit_test(test_not_a_picture),   cmocka_unit_test(test_unreadable),
-        cmocka_unit_test(test_unknown_channel), cmocka_unit_test(test_forged_sizes),
-        cmocka_unit_test(test_unwritable),      cmocka_unit_test(test_full_disk),
-        cmocka_unit_test(test_bad_images),
+        cmocka_unit_test(test_truncated),     cmocka_unit_test(test_b44),
+        cmocka_unit_test(test_flipped_bytes), cmocka_unit_test(test_not_a_picture),
+        cmocka_unit_test(test_unreadable),    cmocka_unit_test(test_unknown_channel),
+        cmocka_unit_test(test_forged_sizes),  cmocka_unit_test(test_unwritable),
+        cmocka_unit_test(test_full_disk),     cmocka_unit_test(test_bad_images),
     };
     return cmocka_run_group_tests(tests, support_setup, support_teardown);
 }

@@ -77,6 +77,15 @@ grep -q '^crevice: shot.0009.pfm: ' stderr.txt || fail "the missing frame is not
 [ -s gap.0001.png ] && [ -s gap.0005.png ] || fail "frames before the missing one"
 [ ! -e gap.0009.png ] || fail "a picture of a missing frame"
 
+# A later frame of another size is told of; so is one that shows nothing.
+pfm shot.0007.pfm 3 2 1 1 1 1 1 1
+good ao "shot.####.pfm" --frames 3-7x4 --vfov 90 -o "mix.####.exr"
+grep -q 'warning: shot.0007.pfm: is 3x2, the first frame 2x2' stderr.txt ||
+    fail "another size is not told"
+pfm negative.pfm 2 2 -1 -1 -1 -1
+good ao negative.pfm --vfov 60 -o negative.exr
+grep -q 'warning: negative.pfm: shows nothing' stderr.txt || fail "no depth is not told"
+
 # All background is all white: nothing but 255 in an 8-bit grey picture.
 good ao shot.0001.pfm --vfov 60 -o white.pfm
 tail -c 16 white.pfm >white.raw

@@ -77,8 +77,8 @@ map=heat.png
 mean_of R "(246 + 246 + 134 + 19) / 1020" "2 / 1020"
 
 cp mixed.pfm in.png
-bad 2 'in.png: is the input' compare in.png black.pfm --heat-map in.png
-bad 2 'in.png: is the input' compare black.pfm in.png --heat-map in.png
+bad 2 'in.png: is an input' compare in.png black.pfm --heat-map in.png
+bad 2 'in.png: is an input' compare black.pfm in.png --heat-map in.png
 bad 2 'out.pfm: a heat map is a .png or .exr' compare a.pfm b.pfm --heat-map out.pfm
 bad 1 'nowhere' compare a.pfm b.pfm --heat-map nowhere/out.png
 bad 2 'no heat map; add --heat-map' compare a.pfm b.pfm --heat-scale 0.1

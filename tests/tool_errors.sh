@@ -76,7 +76,7 @@ bad 1 'folder' render $m -o folder
 bad 2 'two pictures' render $m -o out.png --lit out.png
 bad 2 'cannot hold a G-buffer' gbuffer $m -o out.png
 cp points.obj model.png
-bad 2 'is the input' render model.png -o model.png
+bad 2 'is an input' render model.png -o model.png
 cmp -s points.obj model.png || fail "the input was touched"
 
 # shellcheck disable=SC2086
@@ -96,7 +96,7 @@ ao 1 'text.png: ' text.png --vfov 60
 ao 1 'frame.exr: .*N.X' frame.exr --depth Depth # lists the channels there are
 ao 1 'frame.exr: ' frame.exr --normal Nromal
 ao 1 'vfov' picture.png # a picture knows no camera
-bad 2 'is the input' ao frame.exr -o frame.exr
+bad 2 'is an input' ao frame.exr -o frame.exr
 ao 2 'add --near and' frame.exr --depth-encoding hardware
 ao 2 '--far: ' frame.exr --depth-encoding reversed --near 2 --far 1
 ao 2 '--near: ' frame.exr --depth-encoding reversed --near 0 --far 1
@@ -150,6 +150,39 @@ render 2 '--key-light: ' $m --shade lit --key-light 10
 render 2 '--key-light: ' $m --shade lit --key-light 10,91
 render 2 '--key-light: ' $m --shade lit --key-light 10,20,-1
 ao 2 '--layer-kind: .*did you mean solid' frame.exr --layer-kind solids
+
+# Inputs of any kind are not overwritten, whatever their path looks like.
+cp map.pfm kept.pfm
+cp frame.exr kept.exr
+relief="--height-map kept.pfm --height-scale 1 --method vao"
+bad 2 'kept.pfm: is an input' render $m $small $relief -o kept.pfm
+bad 2 'kept.pfm: is an input' render $m $small $relief -o out.png --lit ./kept.pfm
+bad 2 'kept.exr: is an input' render $m $small --shade lit --sky kept.exr -o kept.exr
+bad 2 'two pictures' render $m $small -o out.png --lit new.png --unlit ./new.png
+bad 2 'kept.exr: is an input' bench kept.exr --vfov 60 --json ./kept.exr
+cmp -s map.pfm kept.pfm && cmp -s frame.exr kept.exr || fail "an input was overwritten"
+mkdir -p page
+echo '{"views": []}' >page/report.json
+bad 2 'report.json: is an input' report -o page --views page/report.json
+bad 1 'report.json: its list .* is empty' report -o page2 --views page/report.json
+
+# A limit on the size of files is told as any full disk; nothing is left behind.
+(
+    ulimit -f 1
+    bad 1 'out.pfm: cannot be written' render $m --size 640x360 -o out.pfm
+)
+# What is replaced keeps its permissions.
+good render $m $small -o mode.png
+chmod 600 mode.png
+good render $m $small -o mode.png
+[ "$(ls -l mode.png | cut -c1-10)" = -rw------- ] || fail "the file's mode is lost"
+
+render 2 '--characteristic field: there is no relief' $m --method vao \
+    --characteristic field
+ao 2 '--characteristic field: frames have no relief' frame.exr --method vao \
+    --characteristic field
+ao 1 'name normals without' frame.exr --normal N.X --vfov 60
+bad 1 'cut.exr: ' bench builtin:corner cut.exr --only methods
 
 # A name with a line break does not make two lines of one.
 bad 1 'missing?' ao "missing

@@ -31,9 +31,9 @@
  *     crv_plan_run(plan, gbuffer, &result);
  *
  * Every call returns a crv_status; check it. The reason for a failure goes to the
- * context's logger as one line. Memory is taken when objects are made, never in
- * crv_plan_run(). A context and what was made with it serve one thread at a time; inside,
- * work runs in parallel.
+ * context's logger as one line. Memory is taken when objects are made and when a
+ * G-buffer is first given a kind of data, never in crv_plan_run(). A context and what was
+ * made with it serve one thread at a time; inside, work runs in parallel.
  */
 #ifndef CREVICE_H
 #define CREVICE_H

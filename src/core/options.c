@@ -228,9 +228,9 @@ crv_status crv__option_check(const crv_option *option, double value,
     if (value >= low && value <= high)
         return CRV_OK;
     return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
-                     "%s: %g is out of range; it is from %g to %g%s%s", option->key,
-                     value, option->min, option->max, option->unit[0] ? " " : "",
-                     option->unit);
+                     "%s: %.10g is out of range; it is from %.10g to %.10g%s%s",
+                     option->key, value, option->min, option->max,
+                     option->unit[0] ? " " : "", option->unit);
 }
 
 static int is_registered(const crv_options *options)

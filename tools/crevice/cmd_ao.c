@@ -4,6 +4,7 @@
 
 #include "commands.h"
 #include "estimate.h"
+#include "frame_facts.h"
 #include "frames.h"
 #include "output.h"
 #include "passes.h"
@@ -225,6 +226,11 @@ static int check(const ao_settings *s, frame_range *range, report *r)
 {
     const char *mistake = depth_mistake(s);
 
+    if (mistake == NULL
+        && crv_option_applies(crv_option_find("characteristic"), s->common.options.method,
+                              NULL)
+        && s->common.options.characteristic == CRV_CHARACTERISTIC_FIELD)
+        mistake = "--characteristic field: frames have no relief; leave it out";
     if (mistake == NULL && s->vfov_deg.given && s->ortho.given)
         mistake = "--ortho: contradicts --vfov; give one of them";
     if (mistake == NULL)
@@ -264,7 +270,8 @@ typedef struct shot {
     const ao_settings *settings;
     io_passes_request request;
     crv_options options;
-    bool has_radius; /* the user's, or that of the first frame that shows anything */
+    bool has_radius;   /* the user's, or that of the first frame that shows anything */
+    frame_facts first; /* of the first frame */
     estimator estimator;
 } shot;
 
@@ -303,6 +310,9 @@ static int write_result(const shot *t, const char *path, const io_frame *frame,
     ao->display_height = frame->image.display_height;
     ao->pixel_aspect = frame->image.pixel_aspect;
     ao->camera = frame->image.camera;
+    /* Formats without windows get the whole picture. */
+    if (!facts_has_windows(path) && facts_fill_display(ao, r) != EXIT_DONE)
+        return EXIT_FAILED;
     return output_write(path, ao, &options, r);
 }
 
@@ -324,6 +334,8 @@ static int process(shot *t, const char *input, const char *output, report *r)
     if (result == EXIT_DONE)
         result = load(t, input, &frame, r);
     if (result == EXIT_DONE)
+        facts_compare(&t->first, &frame, input, r);
+    if (result == EXIT_DONE)
         result = upload(&t->estimator, &frame, r);
     if (result == EXIT_DONE && !t->has_radius)
         result = fix_radius(t, &frame, r);
@@ -331,6 +343,8 @@ static int process(shot *t, const char *input, const char *output, report *r)
         result = estimate_plan(&t->estimator, &t->options, r);
     if (result == EXIT_DONE)
         result = estimate_run(&t->estimator, &ao, r);
+    if (result == EXIT_DONE)
+        result = facts_check_surface(&t->estimator, &ao, input, r);
     if (result == EXIT_DONE)
         result = write_result(t, output, &frame, &ao, r);
     io_image_free(&ao);

@@ -385,6 +385,20 @@ static int check_json(const bench_settings *s, report *r)
     return EXIT_DONE;
 }
 
+/* The numbers must not replace what is measured. */
+static int spare_inputs(const bench_settings *s, const views_list *views, report *r)
+{
+    int result = EXIT_DONE;
+
+    if (s->json == NULL || to_stdout(s))
+        return EXIT_DONE;
+    for (int32_t i = 0; i < s->inputs.count && result == EXIT_DONE; i++)
+        result = output_spare(s->json, s->inputs.value[i], r);
+    for (int32_t i = 0; i < views->model_count && result == EXIT_DONE; i++)
+        result = output_spare(s->json, views->models[i].path, r);
+    return result == EXIT_DONE ? output_spare(s->json, s->views, r) : result;
+}
+
 static int run(const void *settings, report *r)
 {
     const bench_settings *s = settings;
@@ -412,9 +426,17 @@ static int run(const void *settings, report *r)
             bench_sources_open(&s->inputs, s->views, &s->views_named, s->vfov_deg.value,
                                &views, &b.sources, &b.source_count, r);
     if (result == EXIT_DONE)
+        result = spare_inputs(s, &views, r);
+    if (result == EXIT_DONE)
+        result = bench_sources_check(b.sources, b.source_count, r);
+    if (result == EXIT_DONE) {
         result = run_sections(&b);
-    if (result == EXIT_DONE && s->json != NULL)
-        result = write_json(&b);
+        /* What was measured before something failed may have taken an hour. */
+        if (s->json != NULL) {
+            const int written = write_json(&b);
+            result = result == EXIT_DONE ? written : result;
+        }
+    }
     bench_sources_close(&views, b.sources);
     cJSON_Delete(b.results);
     bench_clock_close(&b.clock);

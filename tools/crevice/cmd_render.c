@@ -82,7 +82,7 @@ static int check(const render_settings *s, report *r)
         if (paths[i] == NULL)
             continue;
         for (int j = 0; j < i && result == EXIT_DONE; j++) {
-            if (paths[j] != NULL && strcmp(paths[i], paths[j]) == 0) {
+            if (paths[j] != NULL && output_same(paths[i], paths[j])) {
                 report_error(r, "%s: is named for two pictures; choose another name",
                              paths[i]);
                 result = EXIT_USAGE;
@@ -90,6 +90,10 @@ static int check(const render_settings *s, report *r)
         }
         if (result == EXIT_DONE)
             result = output_check(paths[i], s->view.model, r);
+        if (result == EXIT_DONE)
+            result = output_spare(paths[i], s->height_map, r);
+        if (result == EXIT_DONE)
+            result = output_spare(paths[i], s->sky, r);
     }
     return result;
 }

@@ -12,6 +12,7 @@
 #include "study/machine.h"
 #include "study/sections.h"
 #include "study/text.h"
+#include "output.h"
 #include "study/views.h"
 
 typedef struct report_settings {
@@ -276,6 +277,22 @@ static size_t room_wanted(const report_settings *s)
     return (size_t)16 * (size_t)s->size.width * (size_t)s->size.height;
 }
 
+/* Views and models may lie in the folder, but not under the page's names. */
+static int spare_inputs(const report_settings *s, report *r)
+{
+    static const char *const written[] = {"index.html", "report.json"};
+    char path[4096];
+    int result = EXIT_DONE;
+
+    for (int i = 0; i < 2 && result == EXIT_DONE; i++) {
+        snprintf(path, sizeof path, "%s/%s", s->output, written[i]);
+        result = output_spare(path, s->views, r);
+        for (int32_t m = 0; m < s->models.count && result == EXIT_DONE; m++)
+            result = output_spare(path, s->models.value[m], r);
+    }
+    return result;
+}
+
 static int run(const void *settings_, report *r)
 {
     const report_settings *settings = settings_;
@@ -286,6 +303,8 @@ static int run(const void *settings_, report *r)
     views_list views = {0};
     int result = check(settings, r);
 
+    if (result == EXIT_DONE)
+        result = spare_inputs(settings, r);
     if (result == EXIT_DONE)
         result = views_collect(&views, &settings->models, settings->views, r);
     if (result == EXIT_DONE && settings->main != NULL)

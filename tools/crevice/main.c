@@ -1,4 +1,7 @@
 /* SPDX-License-Identifier: MIT */
+#define _XOPEN_SOURCE 700
+
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -95,6 +98,7 @@ int main(int argc, char **argv)
     int result;
 
     report_init(&r);
+    signal(SIGXFSZ, SIG_IGN); /* a limit on file sizes is an error of write() then */
     result = dispatch(argc, argv, &r);
     /* A full disk behind a redirection shows only now. */
     if ((fflush(stdout) != 0 || ferror(stdout)) && result == EXIT_DONE) {

@@ -4,9 +4,12 @@
 #include "output.h"
 
 #include <signal.h>
+#include <stdio.h>
+#include <string.h>
 #include <sys/stat.h>
 
 static const int held_signals[] = {SIGINT, SIGTERM, SIGHUP};
+enum { PATH_SIZE = 4096 };
 enum { HELD_COUNT = sizeof held_signals / sizeof held_signals[0] };
 
 static volatile sig_atomic_t caught_signal;
@@ -24,12 +27,40 @@ static bool same_file(const char *a, const char *b)
            && first.st_ino == second.st_ino;
 }
 
+/* The folder of a path and its name in it. */
+static const char *folder_of(const char *path, char *folder, size_t size)
+{
+    const char *slash = strrchr(path, '/');
+    const int length = slash != NULL ? (int)(slash - path) + 1 : 0;
+
+    snprintf(folder, size, "%.*s.", length, path);
+    return path + length;
+}
+
+bool output_same(const char *a, const char *b)
+{
+    char folder_a[PATH_SIZE], folder_b[PATH_SIZE];
+    const char *name_a = folder_of(a, folder_a, sizeof folder_a);
+    const char *name_b = folder_of(b, folder_b, sizeof folder_b);
+
+    return same_file(a, b)
+           || (strcmp(name_a, name_b) == 0 && same_file(folder_a, folder_b));
+}
+
+int output_spare(const char *path, const char *input, report *r)
+{
+    if (input == NULL || !output_same(path, input))
+        return EXIT_DONE;
+    report_error(r, "%s: is an input; choose another name for the output", path);
+    return EXIT_USAGE;
+}
+
 int output_check(const char *path, const char *input, report *r)
 {
-    if (input != NULL && same_file(path, input)) {
-        report_error(r, "%s: is the input; choose another name for the output", path);
-        return EXIT_USAGE;
-    }
+    const int result = output_spare(path, input, r);
+
+    if (result != EXIT_DONE)
+        return result;
     return io_check_writable(path, &r->logger) == 0 ? EXIT_DONE : EXIT_FAILED;
 }
 

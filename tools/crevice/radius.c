@@ -90,12 +90,14 @@ int radius_suggest(estimator *e, const io_frame *frame, float *out, report *r)
     double median = 0.0;
     int result = median_depth(e, &median, r);
     double height = frame->image.display_height / (double)frame->camera.fy_px;
+    const crv_option *option = crv_option_find("radius");
 
     *out = 0.0f;
     if (result != EXIT_DONE || median <= 0.0)
         return result;
     if (frame->camera.projection == CRV_PERSPECTIVE)
         height *= median;
-    *out = (float)two_digits(0.05 * height);
+    /* Within what the option takes, however odd the depth. */
+    *out = (float)fmin(fmax(two_digits(0.05 * height), option->min), option->max);
     return EXIT_DONE;
 }

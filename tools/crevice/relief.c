@@ -60,6 +60,10 @@ int relief_check(const render_settings *s, report *r)
     if (s->height_map != NULL)
         report_error(r, "--height-map: has no scale; add --height-scale, scene units for "
                         "a height of 1");
+    else if (reads_relief(s->view.common.options.method)
+             && s->view.common.options.characteristic == CRV_CHARACTERISTIC_FIELD)
+        report_error(r, "--characteristic field: there is no relief; add --height-map "
+                        "FILE");
     else if (s->height_scale.given || s->height_wrap.given)
         report_error(r, "--height-%s: is for a relief; add --height-map FILE",
                      s->height_scale.given ? "scale" : "wrap");

@@ -67,6 +67,18 @@ void report_error(report *r, const char *format, ...)
     write_line("crevice: ", line);
 }
 
+void report_warning(report *r, const char *format, ...)
+{
+    char line[LINE_SIZE];
+    va_list arguments;
+
+    (void)r;
+    va_start(arguments, format);
+    vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    write_line("crevice: warning: ", line);
+}
+
 void report_info(report *r, const char *format, ...)
 {
     char line[LINE_SIZE];

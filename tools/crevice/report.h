@@ -30,6 +30,7 @@ void report_init(report *r);
 
 /* "crevice: LINE". Lines read "FILE or --option: what is wrong; what to do". */
 void report_error(report *r, const char *format, ...) REPORT_PRINTF;
+void report_warning(report *r, const char *format, ...) REPORT_PRINTF;
 void report_info(report *r, const char *format, ...) REPORT_PRINTF;
 void report_detail(report *r, const char *format, ...) REPORT_PRINTF;
 

@@ -162,7 +162,7 @@ void args_describe_values(const arg *row, char *out, size_t size)
         break;
     case ARG_INT:
     case ARG_NUMBER:
-        snprintf(out, size, "%g to %g%s%s", row->min, row->max, space, unit);
+        snprintf(out, size, "%.10g to %.10g%s%s", row->min, row->max, space, unit);
         break;
     case ARG_VECTOR:
         snprintf(out, size, "three numbers X,Y,Z%s%s", space, unit);

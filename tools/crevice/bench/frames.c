@@ -194,6 +194,20 @@ static int load(const bench_source *source, const crv_logger *log, report *r,
     return suggest_radius(out, log, r);
 }
 
+int bench_sources_check(const bench_source *sources, int32_t count, report *r)
+{
+    int result = EXIT_DONE;
+
+    for (int32_t i = 0; i < count && result == EXIT_DONE; i++) {
+        bench_frame frame = {.source = &sources[i]};
+        if (sources[i].path == NULL)
+            continue;
+        result = load(&sources[i], &r->logger, r, &frame);
+        bench_frame_free(&frame);
+    }
+    return result;
+}
+
 int bench_frame_make(const bench_source *source, int32_t width, int32_t height,
                      int32_t threads, const crv_logger *log, report *r, bench_frame *out)
 {

@@ -33,6 +33,9 @@ typedef struct bench_frame {
 int bench_sources_open(const arg_texts *inputs, const char *views_file,
                        const arg_texts *names, double vfov_deg, views_list *views,
                        bench_source **out, int32_t *count, report *r);
+
+/* Before the work: whether every frame can be read and has a camera. */
+int bench_sources_check(const bench_source *sources, int32_t count, report *r);
 void bench_sources_close(views_list *views, bench_source *sources);
 
 /* Renders or loads; free it also after an error. Frames keep their own size. */

@@ -203,7 +203,9 @@ int views_read_file(views_list *list, const char *file, report *r)
     }
     views = cJSON_GetObjectItemCaseSensitive(root, "views");
     if (!cJSON_IsArray(views) || cJSON_GetArraySize(views) == 0) {
-        report_error(r, "%s: has no list \"views\"; see `crevice help report`", file);
+        report_error(r, "%s: %s; see `crevice help report`", file,
+                     cJSON_IsArray(views) ? "its list \"views\" is empty"
+                                          : "has no list \"views\"");
         result = EXIT_FAILED;
     }
     for (view = cJSON_IsArray(views) ? views->child : NULL;

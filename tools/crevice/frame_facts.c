@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: MIT */
+#include "frame_facts.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+static bool same_desc(const crv_gbuffer_desc *a, const crv_gbuffer_desc *b)
+{
+    return a->width == b->width && a->height == b->height && a->layers == b->layers
+           && a->guard_left == b->guard_left && a->guard_top == b->guard_top
+           && a->guard_right == b->guard_right && a->guard_bottom == b->guard_bottom;
+}
+
+void facts_compare(frame_facts *first, const io_frame *frame, const char *path, report *r)
+{
+    const frame_facts now = {true, frame->has_normals, frame->desc,
+                             frame->image.display_width, frame->image.display_height};
+
+    if (!first->known) {
+        *first = now;
+        return;
+    }
+    if (now.has_normals != first->has_normals)
+        report_warning(r, "%s: its normals are %s, unlike those of the first frame", path,
+                       now.has_normals ? "in the file" : "taken from depth");
+    if (now.display_width != first->display_width
+        || now.display_height != first->display_height)
+        report_warning(r, "%s: is %dx%d, the first frame %dx%d", path, now.display_width,
+                       now.display_height, first->display_width, first->display_height);
+    else if (!same_desc(&now.desc, &first->desc))
+        report_warning(r,
+                       "%s: has another data window or other layers than the first "
+                       "frame",
+                       path);
+}
+
+static bool is_open(const io_image *ao)
+{
+    const size_t count = (size_t)ao->width * (size_t)ao->height;
+    const float *values = ao->channels[0].data;
+
+    for (size_t i = 0; i < count; i++)
+        if (values[i] < 1.0f)
+            return false;
+    return true;
+}
+
+int facts_check_surface(estimator *e, const io_image *ao, const char *path, report *r)
+{
+    const size_t count = (size_t)e->desc.width * (size_t)e->desc.height;
+    bool surface = false;
+    float *depth;
+
+    if (!is_open(ao))
+        return EXIT_DONE;
+    depth = malloc(count * sizeof *depth);
+    if (depth == NULL)
+        return report_no_memory(r);
+    const crv_image view = crv_image_packed(depth, e->desc.width, e->desc.height, 1);
+    const bool got = report_ok(r, crv_gbuffer_get_depth(e->gbuffer, 0, &view), "depth");
+    for (size_t i = 0; i < count && got && !surface; i++)
+        surface = isfinite(depth[i]);
+    free(depth);
+    if (got && !surface)
+        report_warning(r,
+                       "%s: shows nothing: every depth is negative, 0, not a number, or "
+                       "background; check --depth, --depth-encoding and --background",
+                       path);
+    return got ? EXIT_DONE : EXIT_FAILED;
+}
+
+bool facts_has_windows(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+
+    return dot != NULL && strcasecmp(dot, ".exr") == 0;
+}
+
+int facts_fill_display(io_image *ao, report *r)
+{
+    const int32_t width = ao->display_width, height = ao->display_height;
+    io_image whole = {0};
+    const char *names[] = {ao->channels[0].name};
+
+    if (ao->data_x == 0 && ao->data_y == 0 && ao->width == width && ao->height == height)
+        return EXIT_DONE;
+    if (io_image_init(&whole, width, height, names, 1, &r->logger) != 0)
+        return EXIT_FAILED;
+    for (size_t i = 0; i < (size_t)width * (size_t)height; i++)
+        whole.channels[0].data[i] = 1.0f;
+    for (int32_t y = 0; y < ao->height; y++) {
+        const int32_t to = y + ao->data_y;
+        const int32_t left = ao->data_x > 0 ? ao->data_x : 0;
+        const int32_t right =
+            ao->data_x + ao->width < width ? ao->data_x + ao->width : width;
+        if (to < 0 || to >= height || left >= right)
+            continue;
+        memcpy(whole.channels[0].data + (size_t)to * (size_t)width + left,
+               ao->channels[0].data + (ptrdiff_t)y * ao->width + (left - ao->data_x),
+               (size_t)(right - left) * sizeof(float));
+    }
+    whole.pixel_aspect = ao->pixel_aspect;
+    whole.camera = ao->camera;
+    io_image_free(ao);
+    *ao = whole;
+    return EXIT_DONE;
+}
