@@ -13,6 +13,8 @@
 
 #include "crevice/options.h"
 
+#include <float.h>
+
 typedef struct crv__v3 {
     vf x, y, z;
 } crv__v3;
@@ -149,6 +151,12 @@ CRV__INLINE vf crv__lanes_stratum(const crv__pixels *at, int32_t k)
 {
     const vf x = vf_set(0.5f) + vf_set(0.5f) * at->beta + vf_set(0.618034f * (float)k);
     return x - vf_floor(x);
+}
+
+/* The square root, relative error < 2e-6; a NaN at infinity. */
+CRV__INLINE vf crv__lanes_root(vf a)
+{
+    return a * vf_rsqrt(vf_max(a, vf_set(FLT_MIN)));
 }
 
 /* crv__falloff(): q >= 0; 0 from q = 1 on. */

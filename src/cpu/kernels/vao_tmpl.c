@@ -2,8 +2,6 @@
 /* methods/vao.c for the lanes of a vector: fields are not for it. */
 #include "cpu/kernels/march.h"
 
-#include <float.h>
-
 /* The tangent sphere, as methods/pipe.h has it, and what its pipes share. Places are
  * reckoned from P: pixels from its own, u to the right and v down, depths from `near`. */
 typedef struct sphere {
@@ -72,7 +70,7 @@ CRV__INLINE chord chord_through(const crv__params *p, crv__shape shape, const sp
         c.half = vf_fma(-miss.z, miss.z, c.half) * inverse;
     }
     c.half = vf_max(c.half, vf_zero());
-    c.half = c.half * vf_rsqrt(vf_max(c.half, vf_set(FLT_MIN)));
+    c.half = crv__lanes_root(c.half);
     return c;
 }
 
