@@ -35,7 +35,8 @@ static inline int crv__pipe_through(const crv__params *p, int32_t x, int32_t y,
     if (!(unit > 0))
         return 0;
     /* Pixels from P's: the centre, and the disk point beside it. */
-    const float scale_x = p->fx / unit, scale_y = p->fy / unit;
+    const float inverse = 1 / unit;
+    const float scale_x = p->fx * inverse, scale_y = p->fy * inverse;
     const float centre_x = p->cx + (P.x + offset.x) * scale_x - (float)x;
     const float centre_y = p->cy - (P.y + offset.y) * scale_y - (float)y;
     const float right = floorf(centre_x + disk.x * radius * scale_x);

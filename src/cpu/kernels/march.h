@@ -42,9 +42,9 @@ CRV__INLINE crv__v3 crv__lanes_lift(const crv__params *p, crv__shape shape, crv_
  * through the eye: those of the tangents to the circle. reach < z. */
 CRV__INLINE void crv__lanes_slopes(vf a, vf z, vf reach, vf *least, vf *greatest)
 {
-    const vf z2 = z * z, reach2 = reach * reach, inverse = vf_set(1) / (z2 - reach2);
+    const vf z2 = z * z, reach2 = reach * reach, inverse = vf_rcp(z2 - reach2);
     const vf middle = a * z * inverse;
-    const vf half = reach * vf_sqrt(vf_max(a * a + z2 - reach2, vf_zero())) * inverse;
+    const vf half = reach * crv__lanes_root(a * a + z2 - reach2) * inverse;
     *least = middle - half;
     *greatest = middle + half;
 }

@@ -31,8 +31,9 @@ CRV__INLINE sphere sphere_at(const crv__frame *f, crv__shape shape, const crv__p
                             at->n.z * vf_set(radius)};
     sphere s = {.offset = offset, .near = at->depth * vf_set(1 - 2e-6f)};
     s.unit = shape.orthographic ? one : at->depth - offset.z;
-    s.scale_x = vf_set(p->fx) / s.unit;
-    s.scale_y = vf_set(p->fy) / s.unit;
+    const vf inverse = one / s.unit;
+    s.scale_x = vf_set(p->fx) * inverse;
+    s.scale_y = vf_set(p->fy) * inverse;
     s.u = vf_set(p->cx) + (at->P.x + offset.x) * s.scale_x - x;
     s.v = vf_set(p->cy) - (at->P.y + offset.y) * s.scale_y - y;
     s.pixel_x = vf_set(p->inv_fx);
@@ -41,8 +42,8 @@ CRV__INLINE sphere sphere_at(const crv__frame *f, crv__shape shape, const crv__p
     if (!shape.orthographic) {
         s.pixel_x = s.pixel_x * at->depth;
         s.pixel_y = s.pixel_y * at->depth;
-        s.ray_x = at->P.x / at->depth;
-        s.ray_y = at->P.y / at->depth;
+        s.ray_x = (x + vf_set(0.5f - p->cx)) * vf_set(p->inv_fx);
+        s.ray_y = (y + vf_set(0.5f - p->cy)) * vf_set(-p->inv_fy);
     }
     s.radius2 = vf_set(radius * radius);
     s.index = crv__lanes_index(&f->depth[0], at->x, vi_set(at->y));

@@ -27,7 +27,8 @@ bool pipe_through(ivec2 at, vec3 P, vec3 offset, float radius, vec2 point,
     const vec2 disk = turned(noise, point);
     const float d = -P.z, unit = view_unit(d - offset.z);
     /* Pixels from P's: the centre, and the disk point beside it. */
-    precise vec2 scale = vec2(params.fx, params.fy) / unit;
+    precise float inverse = 1 / unit;
+    precise vec2 scale = vec2(params.fx, params.fy) * inverse;
     precise float centre_x = params.cx + (P.x + offset.x) * scale.x - float(at.x);
     precise float centre_y = params.cy - (P.y + offset.y) * scale.y - float(at.y);
     precise float right = floor(centre_x + disk.x * radius * scale.x);
