@@ -78,6 +78,8 @@ static void filter_row(const tiles *t, int32_t x0, int32_t x1, int32_t y, float 
 static void tile_place(uint32_t index, int32_t columns, int32_t rows, int32_t strip,
                        int32_t *column, int32_t *row)
 {
+    if (columns <= 2 * strip) /* all of them stay */
+        strip = columns;
     const int32_t first = (int32_t)(index / (uint32_t)(strip * rows)) * strip;
     const int32_t width = columns - first < strip ? columns - first : strip;
     const int32_t rest = (int32_t)(index - (uint32_t)first * (uint32_t)rows);
