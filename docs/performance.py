@@ -421,6 +421,9 @@ Pixels, in millions. The radius is the same part of the picture at every size, s
 in memory in large ones.
 
 {pixels}
+Pixels alone: the radius spans as many of them at every size as it does in 1280x720.
+
+{pixels_alone}
 Samples:
 
 {samples}
@@ -492,6 +495,7 @@ def write_page(parts, own_command):
         exact=fast_and_exact(first), wide=f"{wide['width']}x{wide['height']}",
         threads_table=thread_scaling(parts["threads"]),
         pixels=growth(parts["growth"], "pixels", "MPix", 1, 1e-6),
+        pixels_alone=growth(parts["growth"], "pixels_alone", "MPix", 1, 1e-6),
         samples=growth(parts["growth"], "samples", "samples"),
         radius=growth(parts["growth"], "radius", "factor", 3),
         first=frame_title(first, parts["parts"]["passes"][0]["frame"]),

@@ -117,8 +117,10 @@ def slope(points):
 def check_growth(report):
     for row in report["growth"]:
         check_run(row, report)
-        if row["over"] == "pixels":
+        if row["over"] in ("pixels", "pixels_alone"):
             assert row["x"] == row["width"] * row["height"], row
+            factor = 1 if row["over"] == "pixels" else 720 / row["height"]
+            assert math.isclose(row["radius_factor"], factor, rel_tol=1e-6), row
         elif row["over"] == "samples":
             assert row["x"] == row["samples"], row
         elif row["over"] == "threads":

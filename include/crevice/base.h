@@ -75,8 +75,8 @@ typedef struct crv_logger {
 } crv_logger;
 
 /* Where memory comes from. Both functions or neither (then malloc's aligned cousin is
- * used). Called only inside create, set and destroy functions, never inside
- * crv_plan_run(). */
+ * used, and on Linux huge pages are asked for where a block has 8 MiB or more). Called
+ * only inside create, set and destroy functions, never inside crv_plan_run(). */
 typedef struct crv_allocator {
     /* Returns `size` bytes (> 0) aligned to `alignment` (a power of two), or NULL. */
     void *(*allocate)(void *user, size_t size, size_t alignment);

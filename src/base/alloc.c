@@ -1,10 +1,30 @@
 /* SPDX-License-Identifier: MIT */
+#if defined(__linux__)
+#define _DEFAULT_SOURCE /* for madvise() */
+#endif
 #include "base/alloc.h"
 
 #include <stdlib.h>
 #include <string.h>
 #if defined(_WIN32)
 #include <malloc.h>
+#elif defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+#if defined(MADV_HUGEPAGE)
+/* Samples of a large picture lie in hundreds of its rows, each in pages of its own: with
+ * small pages their addresses are looked up anew all the time. */
+enum { HUGE_PAGE = 1 << 21, LEAST_HUGE = 4 * HUGE_PAGE };
+
+static void *allocate_huge(size_t size)
+{
+    const size_t whole = (size + HUGE_PAGE - 1) / HUGE_PAGE * HUGE_PAGE;
+    void *memory = aligned_alloc(HUGE_PAGE, whole);
+    if (memory) /* advice only: where it is not taken, pages are small */
+        (void)madvise(memory, whole, MADV_HUGEPAGE);
+    return memory;
+}
 #endif
 
 static void *default_allocate(void *user, size_t size, size_t alignment)
@@ -13,6 +33,10 @@ static void *default_allocate(void *user, size_t size, size_t alignment)
 #if defined(_WIN32)
     return _aligned_malloc(size, alignment);
 #else
+#if defined(MADV_HUGEPAGE)
+    if (size >= LEAST_HUGE && alignment <= HUGE_PAGE)
+        return allocate_huge(size);
+#endif
     return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
 #endif
 }

@@ -8,8 +8,15 @@
 #include <math.h>
 
 /* Tiles are small enough that a picture gives every thread many, and wide enough that
- * rows of depth are read along the cache line. */
-enum { TILE_WIDTH = 128, TILE_HEIGHT = 16, FAST_TILE_GROUPS = 4, FAST_TILE_HEIGHT = 32 };
+ * rows of depth are read along the cache line; strips of them: see tile_place(). */
+enum {
+    TILE_WIDTH = 128,
+    TILE_HEIGHT = 32,
+    TILE_STRIP = 8,
+    FAST_TILE_GROUPS = 4,
+    FAST_TILE_HEIGHT = 32,
+    FAST_TILE_STRIP = 4
+};
 
 typedef struct tiles {
     const crv__work *work;
@@ -21,7 +28,7 @@ typedef struct tiles {
     const crv__fast *fast;
     int32_t pass;
     const crv__plane *input, *out;
-    int32_t columns;
+    int32_t columns, rows;
     void (*row)(const struct tiles *tiles, int32_t x0, int32_t x1, int32_t y, float *out);
 } tiles;
 
@@ -65,12 +72,28 @@ static void filter_row(const tiles *t, int32_t x0, int32_t x1, int32_t y, float 
     }
 }
 
+/* The column and row of a tile by its number. They are visited in strips from the top to
+ * the bottom: what the samples of a row of tiles reach is read again by the next, and of
+ * a wide picture's whole row it would not stay in the cache until then. */
+static void tile_place(uint32_t index, int32_t columns, int32_t rows, int32_t strip,
+                       int32_t *column, int32_t *row)
+{
+    if (columns <= 2 * strip) /* all of them stay */
+        strip = columns;
+    const int32_t first = (int32_t)(index / (uint32_t)(strip * rows)) * strip;
+    const int32_t width = columns - first < strip ? columns - first : strip;
+    const int32_t rest = (int32_t)(index - (uint32_t)first * (uint32_t)rows);
+    *column = first + rest % width;
+    *row = rest / width;
+}
+
 static void run_tile(void *data, uint32_t index)
 {
     const tiles *t = data;
     const crv__plane *out = t->out;
-    const int32_t x0 = out->x0 + (int32_t)(index % (uint32_t)t->columns) * TILE_WIDTH;
-    const int32_t y0 = out->y0 + (int32_t)(index / (uint32_t)t->columns) * TILE_HEIGHT;
+    int32_t column, row;
+    tile_place(index, t->columns, t->rows, TILE_STRIP, &column, &row);
+    const int32_t x0 = out->x0 + column * TILE_WIDTH, y0 = out->y0 + row * TILE_HEIGHT;
     const int32_t right = out->x0 + out->width, bottom = out->y0 + out->height;
     const int32_t x1 = x0 + TILE_WIDTH < right ? x0 + TILE_WIDTH : right;
     const int32_t y1 = y0 + TILE_HEIGHT < bottom ? y0 + TILE_HEIGHT : bottom;
@@ -81,8 +104,8 @@ static void run_tile(void *data, uint32_t index)
 static void run_tiles(tiles *t)
 {
     t->columns = (t->out->width + TILE_WIDTH - 1) / TILE_WIDTH;
-    const int32_t rows = (t->out->height + TILE_HEIGHT - 1) / TILE_HEIGHT;
-    crv__run_parallel(t->work->setup->context, (uint32_t)t->columns * (uint32_t)rows,
+    t->rows = (t->out->height + TILE_HEIGHT - 1) / TILE_HEIGHT;
+    crv__run_parallel(t->work->setup->context, (uint32_t)t->columns * (uint32_t)t->rows,
                       run_tile, t);
 }
 
@@ -120,11 +143,11 @@ static void run_fast_tile(void *data, uint32_t index)
     const int32_t left = (out->x0 + t->fast->left) / CRV__FAST_SPAN;
     const int32_t end =
         (out->x0 + out->width + t->fast->left + CRV__FAST_SPAN - 1) / CRV__FAST_SPAN;
-    const int32_t first =
-        left + (int32_t)(index % (uint32_t)t->columns) * FAST_TILE_GROUPS;
+    int32_t column, row;
+    tile_place(index, t->columns, t->rows, FAST_TILE_STRIP, &column, &row);
+    const int32_t first = left + column * FAST_TILE_GROUPS;
     const int32_t last = first + FAST_TILE_GROUPS < end ? first + FAST_TILE_GROUPS : end;
-    const int32_t y0 =
-        out->y0 + (int32_t)(index / (uint32_t)t->columns) * FAST_TILE_HEIGHT;
+    const int32_t y0 = out->y0 + row * FAST_TILE_HEIGHT;
     const int32_t bottom = out->y0 + out->height;
     const int32_t y1 = y0 + FAST_TILE_HEIGHT < bottom ? y0 + FAST_TILE_HEIGHT : bottom;
     const int32_t from = first * CRV__FAST_SPAN - t->fast->left;
@@ -133,13 +156,13 @@ static void run_fast_tile(void *data, uint32_t index)
     const int32_t x1 = to < out->x0 + out->width ? to : out->x0 + out->width;
     for (int32_t i = 0; i < CRV__FAST_PHASES; i++) {
         for (int32_t y = y0 + i; y < y1; y += CRV__FAST_PHASES) {
-            float *row = crv__plane_at(out, x0, y);
-            const int beyond =
-                t->fast_kernel(t->work->frame, t->fast, y, first, last, x0, x1 - x0, row);
+            float *result = crv__plane_at(out, x0, y);
+            const int beyond = t->fast_kernel(t->work->frame, t->fast, y, first, last, x0,
+                                              x1 - x0, result);
             for (int32_t x = 0; x < x1 - x0 && p->contrast != 1; x++)
-                row[x] = powf(row[x], p->contrast);
+                result[x] = powf(result[x], p->contrast);
             if (beyond)
-                mend_row(t, x0, x1, y, row);
+                mend_row(t, x0, x1, y, result);
         }
     }
 }
@@ -151,8 +174,8 @@ static void run_fast_tiles(tiles *t)
     const int32_t end =
         (out->x0 + out->width + t->fast->left + CRV__FAST_SPAN - 1) / CRV__FAST_SPAN;
     t->columns = (end - left + FAST_TILE_GROUPS - 1) / FAST_TILE_GROUPS;
-    const int32_t rows = (out->height + FAST_TILE_HEIGHT - 1) / FAST_TILE_HEIGHT;
-    crv__run_parallel(t->work->setup->context, (uint32_t)t->columns * (uint32_t)rows,
+    t->rows = (out->height + FAST_TILE_HEIGHT - 1) / FAST_TILE_HEIGHT;
+    crv__run_parallel(t->work->setup->context, (uint32_t)t->columns * (uint32_t)t->rows,
                       run_fast_tile, t);
 }
 

@@ -109,7 +109,8 @@ static inline float crv__pipe_outside(const crv__frame *f, const crv__site *site
         return rest.exit - rest.entry;
     /* The sphere touches its own surface: far away the rounding of depth would cut it. */
     const float nearer = 1 - 2e-6f;
-    return crv__open_length(f, pipe->u, pipe->v, rest.entry * nearer, rest.exit * nearer);
+    return crv__open_length(f, pipe->u, pipe->v, pipe->depth * nearer, rest.entry,
+                            rest.exit);
 }
 
 #endif

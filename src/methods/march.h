@@ -60,7 +60,8 @@ static inline int crv__texel_of(const crv__params *p, crv__vec3 Q, int32_t *u, i
     const float unit = p->orthographic ? 1 : -Q.z;
     if (!(unit > 0))
         return 0;
-    const float x = p->cx + p->fx * Q.x / unit, y = p->cy - p->fy * Q.y / unit;
+    const float inverse = 1 / unit;
+    const float x = p->cx + p->fx * Q.x * inverse, y = p->cy - p->fy * Q.y * inverse;
     if (!(x >= 0 && x < (float)p->width && y >= 0 && y < (float)p->height))
         return 0;
     *u = (int32_t)x;

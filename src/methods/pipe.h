@@ -12,9 +12,10 @@
  */
 typedef struct crv__pipe {
     int32_t u, v;         /* the texel; may lie outside the buffers */
-    float entry, exit;    /* planar depth at which the ray enters and leaves the sphere */
+    float entry, exit;    /* where the ray enters and leaves the sphere: planar depth less
+                             that of P */
     crv__vec3 start, ray; /* the ray: start + (depth - .depth) * ray, ray.z = -1 */
-    float depth;          /* of start */
+    float depth;          /* of start, P's */
 } crv__pipe;
 
 /*
@@ -33,17 +34,21 @@ static inline int crv__pipe_through(const crv__params *p, int32_t x, int32_t y,
     const float d = -P.z, unit = p->orthographic ? 1 : d - offset.z;
     if (!(unit > 0))
         return 0;
-    const float sx = p->cx + p->fx * (P.x + offset.x + disk.x * radius) / unit;
-    const float sy = p->cy - p->fy * (P.y + offset.y + disk.y * radius) / unit;
+    /* Pixels from P's: the centre, and the disk point beside it. */
+    const float inverse = 1 / unit;
+    const float scale_x = p->fx * inverse, scale_y = p->fy * inverse;
+    const float centre_x = p->cx + (P.x + offset.x) * scale_x - (float)x;
+    const float centre_y = p->cy - (P.y + offset.y) * scale_y - (float)y;
+    const float right = floorf(centre_x + disk.x * radius * scale_x);
+    const float down = floorf(centre_y - disk.y * radius * scale_y);
     /* Pixels this far out are background anyway, and no longer fit an integer. */
-    if (!(fabsf(sx) < 1e9f && fabsf(sy) < 1e9f))
+    if (!(fabsf(right) < 1e9f && fabsf(down) < 1e9f))
         return 0;
-    pipe->u = (int32_t)floorf(sx);
-    pipe->v = (int32_t)floorf(sy);
+    pipe->u = x + (int32_t)right;
+    pipe->v = y + (int32_t)down;
     /* The ray's point at P's depth, from P. */
     const float scale = p->orthographic ? 1 : d;
-    const crv__vec3 aside = {(float)(pipe->u - x) * p->inv_fx * scale,
-                             (float)(y - pipe->v) * p->inv_fy * scale, 0};
+    const crv__vec3 aside = {right * p->inv_fx * scale, -down * p->inv_fy * scale, 0};
     pipe->start = (crv__vec3){P.x + aside.x, P.y + aside.y, P.z};
     pipe->ray = p->orthographic ? (crv__vec3){0, 0, -1}
                                 : (crv__vec3){pipe->start.x / d, pipe->start.y / d, -1};
@@ -57,33 +62,34 @@ static inline int crv__pipe_through(const crv__params *p, int32_t x, int32_t y,
     if (!(rest > 0))
         return 0;
     const float half = sqrtf(rest / squared);
-    pipe->entry = d + (middle - half);
-    pipe->exit = d + (middle + half);
-    return p->orthographic || pipe->entry > 0;
+    pipe->entry = middle - half;
+    pipe->exit = middle + half;
+    return p->orthographic || d + pipe->entry > 0;
 }
 
+/* Its point at a depth, less that of P. */
 static inline crv__vec3 crv__pipe_at(const crv__pipe *pipe, float depth)
 {
-    return crv__add_scaled(pipe->start, pipe->ray, depth - pipe->depth);
+    return crv__add_scaled(pipe->start, pipe->ray, depth);
 }
 
-/* The length between two depths, `from` to `to`, that lies outside the surfaces of the
- * depth buffer at a texel: in front of the first layer, and in between where layers come
- * in pairs. */
+/* The length between two depths, `from` to `to` behind `origin`, that lies outside the
+ * surfaces of the depth buffer at a texel: in front of the first layer, and in between
+ * where layers come in pairs. */
 static inline float crv__open_length(const crv__frame *f, int32_t u, int32_t v,
-                                     float from, float to)
+                                     float origin, float from, float to)
 {
     const crv__params *p = f->params;
     if (!crv__plane_holds(&f->depth[0], u, v))
         return to - from;
     float open = 0;
     for (int32_t layer = 0; layer < p->layers && from < to; layer += 2) {
-        const float front = *crv__plane_at(&f->depth[layer], u, v);
+        const float front = *crv__plane_at(&f->depth[layer], u, v) - origin;
         if (front > from)
             open += fminf(front, to) - from;
         if (!p->layers_solid || layer + 1 >= p->layers || front >= to)
             return open;
-        from = fmaxf(from, *crv__plane_at(&f->depth[layer + 1], u, v));
+        from = fmaxf(from, *crv__plane_at(&f->depth[layer + 1], u, v) - origin);
     }
     return from < to ? open + (to - from) : open;
 }

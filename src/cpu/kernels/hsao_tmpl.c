@@ -27,7 +27,7 @@ CRV__INLINE void raise_horizon(const crv__frame *f, crv__shape shape,
     /* The height turns the next positions: it is rounded as the scalar code's. */
     const vf scale = vf_set(1) / vf_sqrt(along_t * along_t + along_n * along_n);
     const vf height = along_n * scale, along = along_t * scale;
-    const vf distance = vf_sqrt(squared);
+    const vf distance = crv__lanes_root(squared);
     raise = vm_and(raise, vf_lt(s->height, height));
     if (p->growing_sphere)
         raise = vm_and(raise,

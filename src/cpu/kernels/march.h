@@ -42,9 +42,9 @@ CRV__INLINE crv__v3 crv__lanes_lift(const crv__params *p, crv__shape shape, crv_
  * through the eye: those of the tangents to the circle. reach < z. */
 CRV__INLINE void crv__lanes_slopes(vf a, vf z, vf reach, vf *least, vf *greatest)
 {
-    const vf z2 = z * z, reach2 = reach * reach, inverse = vf_set(1) / (z2 - reach2);
+    const vf z2 = z * z, reach2 = reach * reach, inverse = vf_rcp(z2 - reach2);
     const vf middle = a * z * inverse;
-    const vf half = reach * vf_sqrt(vf_max(a * a + z2 - reach2, vf_zero())) * inverse;
+    const vf half = reach * crv__lanes_root(a * a + z2 - reach2) * inverse;
     *least = middle - half;
     *greatest = middle + half;
 }
@@ -79,9 +79,9 @@ CRV__INLINE crv__texels crv__lanes_texels(const crv__params *p, crv__shape shape
     const vf unit = -Q.z;
     vf x = vf_set(p->fx) * Q.x, y = vf_set(p->fy) * Q.y;
     if (!shape.orthographic) {
-        /* The reciprocal would do for both, but not to the bit. */
-        x = x / unit;
-        y = y / unit;
+        const vf inverse = vf_set(1) / unit;
+        x = x * inverse;
+        y = y * inverse;
     }
     crv__texels texels = {vi_floor(vf_set(p->cx) + x), vi_floor(vf_set(p->cy) - y),
                           active};
@@ -205,12 +205,14 @@ CRV__INLINE void crv__lanes_march(const crv__frame *f, crv__shape shape,
     }
     for (int32_t i = 1; i <= p->steps && vm_any(any); i++) {
         const vf step = crv__lanes_step(p, at, i);
-        for (int32_t k = 0; k < count; k++)
-            looks[k] = crv__lanes_look(
-                f, shape, crv__v3_add_scaled(origin, directions[k], step), open[k]);
+        for (int32_t k = 0; k < count; k++) {
+            if (vm_any(open[k]))
+                looks[k] = crv__lanes_look(
+                    f, shape, crv__v3_add_scaled(origin, directions[k], step), open[k]);
+        }
         any = vm_none();
         for (int32_t k = 0; k < count; k++) {
-            if (vm_any(looks[k].open)) {
+            if (vm_any(open[k]) && vm_any(looks[k].open)) {
                 crv__v3 to;
                 vf squared;
                 const vm blocked =
@@ -222,7 +224,7 @@ CRV__INLINE void crv__lanes_march(const crv__frame *f, crv__shape shape,
         }
     }
     for (int32_t k = 0; k < count; k++) {
-        const vf q = vf_sqrt(weights[k]) * vf_set(p->inv_radius);
+        const vf q = crv__lanes_root(weights[k]) * vf_set(p->inv_radius);
         weights[k] = vf_where(vf_lt(weights[k], infinity), crv__lanes_falloff(p, q));
     }
 }

@@ -97,6 +97,13 @@ CRV__INLINE vf vf_zero(void)
     return vf_set(0);
 }
 
+/* 1/a, relative error < 3e-7. */
+CRV__INLINE vf vf_rcp(vf a)
+{
+    const vf rough = vf_rcp_rough(a);
+    return rough * vf_fma(-a, rough, vf_set(2));
+}
+
 /* 1/sqrt, relative error < 7e-5. */
 CRV__INLINE vf vf_rsqrt_fair(vf a)
 {

@@ -49,8 +49,9 @@ vec3 lifted(vec3 P, vec3 n)
 bool texel_of(vec3 Q, out ivec2 texel)
 {
     const float unit = view_unit(-Q.z);
-    precise vec2 place =
-        vec2(params.cx + params.fx * Q.x / unit, params.cy - params.fy * Q.y / unit);
+    precise float inverse = 1 / unit;
+    precise vec2 place = vec2(params.cx + params.fx * Q.x * inverse,
+                              params.cy - params.fy * Q.y * inverse);
     const vec2 inside = clamped_place(place);
     texel = ivec2(inside);
     return all(bvec2(unit > 0, inside == place));

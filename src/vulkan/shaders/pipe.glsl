@@ -11,7 +11,7 @@
 struct Pipe {
     ivec2 texel; /* may lie outside the buffers */
     float entry_z,
-        exit_z; /* planar depth at which the ray enters and leaves the sphere */
+        exit_z; /* where the ray enters and leaves the sphere: planar depth less P's */
 };
 
 /*
@@ -26,16 +26,20 @@ bool pipe_through(ivec2 at, vec3 P, vec3 offset, float radius, vec2 point,
     pipe = Pipe(ivec2(0), 0, 0);
     const vec2 disk = turned(noise, point);
     const float d = -P.z, unit = view_unit(d - offset.z);
-    precise float x = params.cx + params.fx * (P.x + offset.x + disk.x * radius) / unit;
-    precise float y = params.cy - params.fy * (P.y + offset.y + disk.y * radius) / unit;
+    /* Pixels from P's: the centre, and the disk point beside it. */
+    precise float inverse = 1 / unit;
+    precise vec2 scale = vec2(params.fx, params.fy) * inverse;
+    precise float centre_x = params.cx + (P.x + offset.x) * scale.x - float(at.x);
+    precise float centre_y = params.cy - (P.y + offset.y) * scale.y - float(at.y);
+    precise float right = floor(centre_x + disk.x * radius * scale.x);
+    precise float down = floor(centre_y - disk.y * radius * scale.y);
     /* Pixels this far out are background anyway, and no longer fit an integer. */
-    if (!(unit > 0 && abs(x) < 1e9 && abs(y) < 1e9))
+    if (!(unit > 0 && abs(right) < 1e9 && abs(down) < 1e9))
         return false;
-    pipe.texel = ivec2(int(floor(x)), int(floor(y)));
+    pipe.texel = at + ivec2(int(right), int(down));
     /* The ray's point at P's depth, from P. */
-    precise vec3 aside =
-        vec3(float(pipe.texel.x - at.x) * params.inv_fx * view_unit(d),
-             float(at.y - pipe.texel.y) * params.inv_fy * view_unit(d), 0);
+    precise vec3 aside = vec3(right * params.inv_fx * view_unit(d),
+                              -down * params.inv_fy * view_unit(d), 0);
     precise vec3 ray =
         is_orthographic() ? vec3(0, 0, -1) : vec3((P.xy + aside.xy) / d, -1);
     /* |aside + t ray - offset|^2 = radius^2, about the point nearest to the centre. */
@@ -47,27 +51,28 @@ bool pipe_through(ivec2 at, vec3 P, vec3 offset, float radius, vec2 point,
     if (!(rest > 0))
         return false;
     precise float half_chord = sqrt(rest / squared);
-    precise float entry_z = d + (middle - half_chord);
-    precise float exit_z = d + (middle + half_chord);
+    precise float entry_z = middle - half_chord;
+    precise float exit_z = middle + half_chord;
     pipe.entry_z = entry_z;
     pipe.exit_z = exit_z;
-    return is_orthographic() || entry_z > 0;
+    return is_orthographic() || d + entry_z > 0;
 }
 
-/* The length between two depths that lies outside the surfaces of the depth buffer at a
- * texel: in front of the first layer, and in between where layers come in pairs. */
-float open_length(ivec2 texel, float from, float to)
+/* The length between two depths, `from` to `to` behind `origin`, that lies outside the
+ * surfaces of the depth buffer at a texel: in front of the first layer, and in between
+ * where layers come in pairs. */
+float open_length(ivec2 texel, float origin, float from, float to)
 {
     if (!in_buffers(texel))
         return to - from;
     float open = 0;
     for (int layer = 0; layer < layer_count() && from < to; layer += 2) {
-        const float front = depth_at(texel, layer);
+        const float front = depth_at(texel, layer) - origin;
         if (front > from)
             open += min(front, to) - from;
         if (!layers_are_solid() || layer + 1 >= layer_count() || front >= to)
             return open;
-        from = max(from, depth_at(texel, layer + 1));
+        from = max(from, depth_at(texel, layer + 1) - origin);
     }
     return from < to ? open + (to - from) : open;
 }

@@ -16,13 +16,13 @@
 const int NORMALISER_ANALYTIC = 1;
 
 /* The length of the part of the pipe that is outside. */
-float outside_of(Pipe pipe)
+float outside_of(Pipe pipe, float d)
 {
     if (params.use_depth == 0)
         return pipe.exit_z - pipe.entry_z;
     /* The sphere touches its own surface: far away the rounding of depth would cut it. */
     const float nearer = 1 - 2e-6;
-    return open_length(pipe.texel, pipe.entry_z * nearer, pipe.exit_z * nearer);
+    return open_length(pipe.texel, d * nearer, pipe.entry_z, pipe.exit_z);
 }
 
 float accessibility(ivec2 at, float d)
@@ -36,7 +36,7 @@ float accessibility(ivec2 at, float d)
         Pipe pipe;
         if (!pipe_through(at, P, offset, radius, pattern[i].xy, noise, pipe))
             continue;
-        open += outside_of(pipe);
+        open += outside_of(pipe, d);
         chords += pipe.exit_z - pipe.entry_z;
     }
     if (params.normaliser == NORMALISER_ANALYTIC)

@@ -14,7 +14,7 @@ enum { POINTS_MAX = BENCH_CHOICES_MAX };
 
 typedef struct curve {
     bench *b;
-    const char *of; /* "pixels", "samples", "radius" or "threads" */
+    const char *of; /* "pixels", "pixels_alone", "samples", "radius" or "threads" */
     int32_t count;
     double x[POINTS_MAX], ms[POINTS_MAX];
 } curve;
@@ -25,7 +25,8 @@ static const arg_size SIZES[] = {
 };
 enum {
     SIZE_COUNT = sizeof SIZES / sizeof SIZES[0],
-    SIZES_BRIEF = 4 /* without --full */
+    SIZES_BRIEF = 4,   /* without --full */
+    ALONE_HEIGHT = 720 /* of the picture whose radius in pixels all others take */
 };
 
 static const double RADII[] = {0.125, 0.25, 0.5, 1.0, 2.0, 4.0};
@@ -150,29 +151,46 @@ static int on_one_frame(bench *b, const bench_frame *frame)
     return result;
 }
 
-/* Frame by frame, so that only one of the large ones is held; the radius is the same part
- * of the picture in all. */
+/* One method at one size, the radius the view's own times the factor. */
+static int over_pixels_on(bench *b, const bench_frame *frame, int32_t method,
+                          double radius_factor, bool is_last, curve *k)
+{
+    bench_case c;
+    int result = bench_case_make(b, frame, method, 0, 0, radius_factor, &c);
+
+    if (result == EXIT_DONE)
+        result = add_point(k, &c, (double)frame->width * (double)frame->height);
+    if (result == EXIT_DONE && is_last)
+        add_fit(k, &c);
+    return result;
+}
+
+/*
+ * Frame by frame, so that only one of the large ones is held. With `pixels` the radius is
+ * the same part of the picture in all, so that samples lie farther apart in memory in
+ * large ones; with `pixels_alone` it is as many pixels as at ALONE_HEIGHT.
+ */
 static int over_pixels(bench *b)
 {
     int32_t sizes = b->settings->full ? SIZE_COUNT : SIZES_BRIEF;
-    curve curves[BENCH_CHOICES_MAX];
-    bench_case c;
+    curve curves[BENCH_CHOICES_MAX], alone[BENCH_CHOICES_MAX];
     int result = EXIT_DONE;
 
-    for (int32_t m = 0; m < b->choices->method_count; m++)
+    for (int32_t m = 0; m < b->choices->method_count; m++) {
         curves[m] = (curve){.b = b, .of = "pixels"};
+        alone[m] = (curve){.b = b, .of = "pixels_alone"};
+    }
     for (int32_t s = 0; s < sizes && result == EXIT_DONE; s++) {
         bench_frame frame;
+        const double factor = (double)ALONE_HEIGHT / SIZES[s].height;
+        const bool is_last = s == sizes - 1;
         result = bench_frame_make(&b->sources[0], SIZES[s].width, SIZES[s].height,
                                   b->settings->common.threads.value, &b->quiet_logger,
                                   b->r, &frame);
         for (int32_t m = 0; m < b->choices->method_count && result == EXIT_DONE; m++) {
-            result = bench_case_make(b, &frame, m, 0, 0, 1.0, &c);
+            result = over_pixels_on(b, &frame, m, 1, is_last, &curves[m]);
             if (result == EXIT_DONE)
-                result =
-                    add_point(&curves[m], &c, (double)frame.width * (double)frame.height);
-            if (result == EXIT_DONE && s == sizes - 1)
-                add_fit(&curves[m], &c);
+                result = over_pixels_on(b, &frame, m, factor, is_last, &alone[m]);
         }
         bench_frame_free(&frame);
     }
