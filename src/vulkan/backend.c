@@ -164,8 +164,7 @@ static int32_t record_passes(plan_state *state, int filter_only)
                       .out_width = r->width,
                       .out_height = r->height};
     if (!filter_only) {
-        crv__slot_record_step(&state->slot, state->commands.buffer,
-                              &state->program.estimate, state->slot.estimate_set, &push);
+        crv__slot_record_estimate(&state->slot, state->commands.buffer, &push);
         crv__slot_record_time(&state->slot, state->commands.buffer);
     }
     for (push.pass = 0; push.pass < state->program.passes; push.pass++) {

@@ -377,7 +377,7 @@ static void record_passes(crv_vulkan_pass *p, crv__slot *slot, VkCommandBuffer c
     crv__bind_image(&p->program, last, CRV__BIND_OUTPUT, frame->result_view,
                     VK_IMAGE_LAYOUT_GENERAL);
     set_out(push, passes ? slot->rectangle : result);
-    crv__slot_record_step(slot, commands, &p->program.estimate, slot->estimate_set, push);
+    crv__slot_record_estimate(slot, commands, push);
     crv__slot_record_time(slot, commands);
     for (push->pass = 0; push->pass < passes; push->pass++) {
         record_between(p->device, commands);

@@ -45,6 +45,7 @@ enum {
     CRV__SPEC_BIASED,
     CRV__SPEC_FILTER_PASS,
     CRV__SPEC_LOD_PX,
+    CRV__SPEC_IN_PARTS,
     CRV__SPECS
 };
 

@@ -6,24 +6,44 @@
 /* Offsets of storage buffers: every device takes a multiple of this. */
 enum { OFFSET_ALIGNMENT = 256 };
 
-/* How often the loops of a pixel's estimate turn, at most. */
-static double loop_rounds(const crv__setup *setup)
+/*
+ * How often loops may turn for a pixel in one dispatch: as many fetches take a tenth of a
+ * second for a frame of 4K where a device makes 10^12 a second, and one that is ten times
+ * slower still keeps the seconds after which it is taken for lost. Lavapipe breaks loops
+ * off after 65535 rounds, all loops counted together.
+ */
+enum { PART_ROUNDS = 16384, LAVAPIPE_ROUNDS = 65535 };
+
+static int has_option(const crv__setup *setup, const char *key)
+{
+    return crv_option_applies(crv_option_find(key), &setup->method->info, NULL);
+}
+
+/* Directions or points: what an estimate is taken apart by. */
+static int32_t unit_count(const crv__setup *setup)
+{
+    const int has_points = setup->pattern || setup->method->pattern_fill;
+    return has_points ? setup->options.samples : setup->options.directions;
+}
+
+/* How often loops turn for one of them, at most. */
+static int32_t unit_rounds(const crv__setup *setup)
 {
     const crv_options *o = &setup->options;
-    const int has_points = setup->pattern || setup->method->pattern_fill;
-    const int has_rays =
-        crv_option_applies(crv_option_find("normal_rays"), &setup->method->info, NULL);
-    const int has_steps =
-        crv_option_applies(crv_option_find("steps"), &setup->method->info, NULL);
-    double rounds = has_points ? o->samples : o->directions;
-    if (has_steps)
-        rounds *= (double)o->steps * (has_rays ? 1 + o->normal_rays : 1);
-    return setup->desc.layers > 1 ? rounds * (1 + setup->desc.layers) : rounds;
+    const int32_t layers = setup->desc.layers > 1 ? 1 + setup->desc.layers : 1;
+    const int32_t march = has_option(setup, "steps") ? o->steps * layers : layers;
+    return 1 + march
+           + (has_option(setup, "normal_rays") ? o->normal_rays * (1 + march) : 0);
+}
+
+static int32_t part_size(const crv__setup *setup)
+{
+    const int32_t units = PART_ROUNDS / unit_rounds(setup), all = unit_count(setup);
+    return units < 1 ? 1 : units < all ? units : all;
 }
 
 crv_status crv__setup_check(const crv__device *d, const crv__setup *setup)
 {
-    enum { LAVAPIPE_ROUNDS = 65535 };
     const uint32_t most = d->properties.limits.maxImageDimension2D;
     if ((uint32_t)setup->desc.width > most || (uint32_t)setup->desc.height > most)
         return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
@@ -31,10 +51,10 @@ crv_status crv__setup_check(const crv__device *d, const crv__setup *setup)
                          "CPU",
                          d->properties.deviceName, most, setup->desc.width,
                          setup->desc.height);
-    if (d->is_lavapipe && loop_rounds(setup) > LAVAPIPE_ROUNDS)
+    if (d->is_lavapipe && unit_rounds(setup) > LAVAPIPE_ROUNDS)
         return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
                          "vulkan: lavapipe breaks loops off after %d rounds, and gives a "
-                         "wrong picture; take fewer samples, or the CPU",
+                         "wrong picture; take fewer steps or normal_rays, or the CPU",
                          LAVAPIPE_ROUNDS);
     return CRV_OK;
 }
@@ -48,6 +68,7 @@ static void clear_specs(crv__pipeline *pipeline, int32_t group, int32_t specs[CR
     specs[CRV__SPEC_SIZE_X] = specs[CRV__SPEC_SIZE_Y] = group;
     specs[CRV__SPEC_INTERLEAVE] = specs[CRV__SPEC_DEPTH_EDGE] = 1;
     specs[CRV__SPEC_NORMALS_OCTAHEDRAL] = specs[CRV__SPEC_LOD_PX] = 0;
+    specs[CRV__SPEC_IN_PARTS] = 0;
 }
 
 static crv_status take_estimate(crv__program *p, const crv__setup *setup, int32_t group)
@@ -58,6 +79,7 @@ static crv_status take_estimate(crv__program *p, const crv__setup *setup, int32_
     specs[CRV__SPEC_INTERLEAVE] = specs[CRV__SPEC_DEPTH_EDGE] = p->estimate.interleave =
         p->desc.edge;
     specs[CRV__SPEC_LOD_PX] = p->desc.level_px;
+    specs[CRV__SPEC_IN_PARTS] = p->parts > 1;
     specs[CRV__SPEC_FALLOFF] = (int32_t)o->falloff;
     specs[CRV__SPEC_DIRECTIONS] = o->directions;
     specs[CRV__SPEC_STEPS] = o->steps;
@@ -151,8 +173,11 @@ static crv_status create_constants(crv__program *p, const crv__setup *setup)
 crv_status crv__program_create(crv__program *p, const crv__device *device,
                                const crv__setup *setup, const crv__program_desc *desc)
 {
+    const int32_t size = part_size(setup);
     *p = (crv__program){.device = device,
                         .desc = *desc,
+                        .parts = (unit_count(setup) + size - 1) / size,
+                        .part_size = size,
                         .passes = setup->filter ? setup->filter->passes : 0};
     const crv_status status = create_constants(p, setup);
     return status ? status : take_pipelines(p, setup);

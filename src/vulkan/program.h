@@ -28,6 +28,8 @@ typedef struct crv__program {
     crv__pipeline deinterleave, prefilter; /* only where the desc says so */
     crv__pipeline estimate, filter[CRV__MOST_PASSES];
     crv__program_desc desc;
+    /* The estimate takes so many dispatches of so many directions or points. */
+    int32_t parts, part_size;
     int32_t passes;                                /* of the filter */
     crv__buffer constants;                         /* noise, directions, pattern */
     VkDescriptorBufferInfo table[CRV__BIND_DEPTH]; /* where they are, by binding */

@@ -67,8 +67,13 @@ void crv__slot_record_begin(crv__slot *s, VkCommandBuffer commands)
         VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
         VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT
             | VK_ACCESS_2_TRANSFER_WRITE_BIT};
-    const VkImage images[] = {s->depth.image, s->normals.image, s->accessibility[0].image,
-                              s->accessibility[1].image, s->apart.image};
+    const VkImage images[] = {s->depth.image,
+                              s->normals.image,
+                              s->accessibility[0].image,
+                              s->accessibility[1].image,
+                              s->apart.image,
+                              s->sums[0].image,
+                              s->sums[1].image};
     enum { IMAGES = sizeof images / sizeof images[0] };
     VkImageMemoryBarrier2 barriers[IMAGES];
     uint32_t count = 0;
@@ -103,6 +108,23 @@ void crv__slot_record_step(crv__slot *s, VkCommandBuffer commands,
                            sizeof *push, push);
     d->vk.CmdDispatch(commands, (uint32_t)((push->out_width + tile - 1) / tile * step),
                       (uint32_t)((push->out_height + tile - 1) / tile * step), 1);
+}
+
+void crv__slot_record_estimate(crv__slot *s, VkCommandBuffer commands, crv__push *push)
+{
+    const crv__program *p = s->program;
+    const crv__access next = {CRV__SAMPLED.stages,
+                              CRV__SAMPLED.access | CRV__WRITTEN.access};
+    for (int32_t i = 0; i < p->parts; i++) {
+        push->part_begin = i * p->part_size;
+        push->part_end = push->part_begin + p->part_size;
+        push->is_last_part = i + 1 == p->parts;
+        if (i > 0)
+            crv__record_barrier(p->device, commands, CRV__WRITTEN, next);
+        crv__slot_record_step(s, commands, &p->estimate,
+                              push->is_last_part ? s->estimate_set : s->part_set[i % 2],
+                              push);
+    }
 }
 
 void crv__slot_record_time(crv__slot *s, VkCommandBuffer commands)

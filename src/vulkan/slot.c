@@ -54,7 +54,11 @@ static void bind_all(crv__slot *s, VkDescriptorSet set, VkImageView input,
         crv__bind_image(s->program, set, i, views[i], VK_IMAGE_LAYOUT_GENERAL);
 }
 
-enum { SETS = CRV_MAX_LAYERS + 3 + CRV__MOST_PASSES + CRV_MAX_LAYERS * CRV__MOST_LEVELS };
+enum {
+    PARTS_FROM = CRV_MAX_LAYERS + 3 + CRV__MOST_PASSES,
+    LEVELS_FROM = PARTS_FROM + 2,
+    SETS = LEVELS_FROM + CRV_MAX_LAYERS * CRV__MOST_LEVELS
+};
 
 static VkResult create_sets(crv__slot *s)
 {
@@ -90,9 +94,27 @@ static VkResult create_sets(crv__slot *s)
     s->estimate_set = sets[CRV_MAX_LAYERS + 1];
     s->apart_set = sets[CRV_MAX_LAYERS + 2];
     memcpy(s->filter_set, sets + CRV_MAX_LAYERS + 3, sizeof s->filter_set);
-    memcpy(s->level_set, sets + CRV_MAX_LAYERS + 3 + CRV__MOST_PASSES,
-           sizeof s->level_set);
+    memcpy(s->part_set, sets + PARTS_FROM, sizeof s->part_set);
+    memcpy(s->level_set, sets + LEVELS_FROM, sizeof s->level_set);
     return VK_SUCCESS;
+}
+
+/* The sets of an estimate: one, or two that hand sums to and fro and one that ends. */
+static void bind_estimate(crv__slot *s, VkImageView accessibility, VkImageView unused)
+{
+    const int32_t parts = s->program->parts;
+    const VkImageView depth = s->apart.image ? s->apart.view
+                              : s->depth.all ? s->depth.all
+                                             : s->depth.view;
+    const VkImageView sums[2] = {s->sums[0].view, s->sums[1].view};
+    bind_all(s, s->estimate_set, parts > 1 ? sums[parts % 2] : unused, accessibility);
+    crv__bind_image(s->program, s->estimate_set, CRV__BIND_DEPTH, depth,
+                    VK_IMAGE_LAYOUT_GENERAL);
+    for (int i = 0; parts > 1 && i < 2; i++) {
+        bind_all(s, s->part_set[i], sums[1 - i], sums[i]);
+        crv__bind_image(s->program, s->part_set[i], CRV__BIND_DEPTH, depth,
+                        VK_IMAGE_LAYOUT_GENERAL);
+    }
 }
 
 static void bind_sets(crv__slot *s)
@@ -106,17 +128,11 @@ static void bind_sets(crv__slot *s)
             bind_all(s, s->level_set[i][m], first, s->depth.part[i][m]);
     }
     bind_all(s, s->normals_set, first, s->normals.view);
-    bind_all(s, s->estimate_set, second, first);
+    bind_estimate(s, first, second);
     bind_all(s, s->filter_set[0], first, second);
     bind_all(s, s->filter_set[1], second, first);
-    if (s->depth.all)
-        crv__bind_image(s->program, s->estimate_set, CRV__BIND_DEPTH, s->depth.all,
-                        VK_IMAGE_LAYOUT_GENERAL);
-    if (!s->apart.image)
-        return;
-    bind_all(s, s->apart_set, first, s->apart.view);
-    crv__bind_image(s->program, s->estimate_set, CRV__BIND_DEPTH, s->apart.view,
-                    VK_IMAGE_LAYOUT_GENERAL);
+    if (s->apart.image)
+        bind_all(s, s->apart_set, first, s->apart.view);
 }
 
 /* ---- life ---- */
@@ -155,7 +171,9 @@ static crv_status create_images(crv__slot *s, const crv__setup *setup,
                                            s->rectangle.height, 0, 1},
                           apart = {VK_FORMAT_R32_SFLOAT, (g->width + edge - 1) / edge,
                                    (g->height + edge - 1) / edge, g->layers * edge * edge,
-                                   1};
+                                   1},
+                          sums = {VK_FORMAT_R32G32_SFLOAT, s->rectangle.width,
+                                  s->rectangle.height, 0, 1};
     crv_status status = crv__image_create(&s->depth, p->device, &depth);
     if (status == CRV_OK)
         status = crv__image_create(&s->normals, p->device, &normals);
@@ -163,6 +181,8 @@ static crv_status create_images(crv__slot *s, const crv__setup *setup,
         status = crv__image_create(&s->accessibility[i], p->device, &accessibility);
     if (status == CRV_OK && edge > 1)
         status = crv__image_create(&s->apart, p->device, &apart);
+    for (int i = 0; status == CRV_OK && i < (p->parts > 1 ? 2 : 0); i++)
+        status = crv__image_create(&s->sums[i], p->device, &sums);
     return status;
 }
 
@@ -193,6 +213,8 @@ void crv__slot_destroy(crv__slot *s)
     const crv__device *d = s->program->device;
     d->vk.DestroyQueryPool(d->device, s->queries, d->callbacks);
     d->vk.DestroyDescriptorPool(d->device, s->pool, d->callbacks);
+    crv__image_destroy(&s->sums[1], d);
+    crv__image_destroy(&s->sums[0], d);
     crv__image_destroy(&s->apart, d);
     crv__image_destroy(&s->accessibility[1], d);
     crv__image_destroy(&s->accessibility[0], d);
@@ -205,5 +227,5 @@ void crv__slot_destroy(crv__slot *s)
 uint64_t crv__slot_bytes(const crv__slot *s)
 {
     return s->params.size + s->depth.size + s->normals.size + s->accessibility[0].size
-           + s->accessibility[1].size + s->apart.size;
+           + s->accessibility[1].size + s->apart.size + s->sums[0].size + s->sums[1].size;
 }

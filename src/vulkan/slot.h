@@ -14,11 +14,12 @@ typedef struct crv__slot {
     crv__rectangle rectangle; /* of the accessibility images */
     crv__buffer params;
     crv__image depth, normals, accessibility[2];
-    crv__image apart; /* depth taken apart, where the program says so */
+    crv__image apart;   /* depth taken apart, where the program says so */
+    crv__image sums[2]; /* of the estimate's parts, where there are several */
     VkDescriptorPool pool;
     /* Converts; the estimate, into accessibility[0]; filter passes, to and fro. */
     VkDescriptorSet depth_set[CRV_MAX_LAYERS], normals_set, estimate_set,
-        filter_set[CRV__MOST_PASSES], apart_set,
+        filter_set[CRV__MOST_PASSES], apart_set, part_set[2],
         level_set[CRV_MAX_LAYERS][CRV__MOST_LEVELS];
     VkQueryPool queries; /* VK_NULL_HANDLE: none */
     int32_t query_count;
@@ -65,6 +66,9 @@ void crv__slot_record_begin(crv__slot *s, VkCommandBuffer commands);
 void crv__slot_record_step(crv__slot *s, VkCommandBuffer commands,
                            const crv__pipeline *pipeline, VkDescriptorSet set,
                            const crv__push *push);
+
+/* The estimate, in as many dispatches as the program says; fills the push's part. */
+void crv__slot_record_estimate(crv__slot *s, VkCommandBuffer commands, crv__push *push);
 
 /* Milliseconds of the steps whose times were noted since the beginning; NOT_READY while
  * they are executed. */
