@@ -145,6 +145,14 @@ static uint64_t stream_of(const char *name)
     return hash;
 }
 
+static int report(const char *test, const tally *t)
+{
+    const int failed = (double)t->over > fmax(1, SHARE * (double)t->pixels);
+    printf("%-12s %8d px, %d over %g, largest difference %.2g%s\n", test, (int)t->pixels,
+           (int)t->over, TOLERANCE, t->largest, failed ? "  FAILED" : "");
+    return failed;
+}
+
 /* Cases of one method, or of one filter alone. Returns the number of faults. */
 static int check(const settings *s, const devices *d, const char *test,
                  const crv_method *method, const crv_filter *filter)
@@ -165,15 +173,39 @@ static int check(const settings *s, const devices *d, const char *test,
         faults += c ? check_case(d, test, i, c, &t) : 1;
         simd_case_free(c);
     }
-    const int failed = (double)t.over > fmax(1, SHARE * (double)t.pixels);
-    printf("%-12s %8d px, %d over %g, largest difference %.2g%s\n", test, (int)t.pixels,
-           (int)t.over, TOLERANCE, t.largest, failed ? "  FAILED" : "");
-    return faults + failed;
+    return faults + report(test, &t);
+}
+
+/* So many samples that an estimate takes several dispatches, which hand on their sums.
+ * Returns the number of faults. */
+static int check_many(const settings *s, const devices *d)
+{
+    enum { FEW_PIXELS = 24 }; /* a side, at most */
+    tally t = {0};
+    int faults = 0;
+    for (int32_t i = 0; s->cases > 0 && i < crv_method_count(); i++) {
+        const crv_method *method = crv_method_at(i);
+        simd_random r = simd_random_make(s->seed, stream_of("many"), (uint64_t)i);
+        simd_case *c = simd_case_make(&r, method, NULL, 0, FEW_PIXELS, SIMD_SMOOTH);
+        if (c) {
+            c->options.directions = simd_int(&r, 200, 256);
+            c->options.steps = simd_int(&r, 220, 256);
+            c->options.normal_rays = simd_int(&r, 2, 8);
+            c->options.samples = simd_int(&r, 3000, 4096);
+        }
+        faults += c ? check_case(d, "many", i, c, &t) : 1;
+        simd_case_free(c);
+    }
+    return faults + report("many", &t);
 }
 
 static int check_all(const settings *s, const devices *d)
 {
     int faults = 0, tests = 0;
+    if (!s->test || strcmp(s->test, "many") == 0) {
+        faults += check_many(s, d);
+        tests++;
+    }
     for (int32_t i = 0; i < crv_method_count() + crv_filter_count(); i++) {
         const int32_t k = i - crv_method_count();
         const crv_filter *filter = k >= 0 ? crv_filter_at(k) : NULL;
