@@ -11,142 +11,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "vulkan_driver.h"
 #include "vulkan_engine.h"
-
-/* ---- calls of the driver ---- */
-
-/* A function of Vulkan knows of no user pointer. */
-static struct {
-    int calls; /* so far */
-    int due;   /* the call that fails, from 1; 0: none */
-    VkResult result;
-} driver;
-
-static int is_due(void)
-{
-    driver.calls++;
-    return driver.calls == driver.due;
-}
-
-#define CREATES(F)                                                                       \
-    F(CreateBuffer, VkBufferCreateInfo, VkBuffer)                                        \
-    F(CreateImage, VkImageCreateInfo, VkImage)                                           \
-    F(CreateImageView, VkImageViewCreateInfo, VkImageView)                               \
-    F(CreateSampler, VkSamplerCreateInfo, VkSampler)                                     \
-    F(CreateDescriptorSetLayout, VkDescriptorSetLayoutCreateInfo, VkDescriptorSetLayout) \
-    F(CreateDescriptorPool, VkDescriptorPoolCreateInfo, VkDescriptorPool)                \
-    F(CreatePipelineLayout, VkPipelineLayoutCreateInfo, VkPipelineLayout)                \
-    F(CreateShaderModule, VkShaderModuleCreateInfo, VkShaderModule)                      \
-    F(CreateCommandPool, VkCommandPoolCreateInfo, VkCommandPool)                         \
-    F(CreateFence, VkFenceCreateInfo, VkFence)                                           \
-    F(CreateQueryPool, VkQueryPoolCreateInfo, VkQueryPool)                               \
-    F(AllocateMemory, VkMemoryAllocateInfo, VkDeviceMemory)
-
-#define DEFINE(name, info_type, handle_type)                                             \
-    static VKAPI_ATTR VkResult VKAPI_CALL fail_##name(                                   \
-        VkDevice device, const info_type *info, const VkAllocationCallbacks *callbacks,  \
-        handle_type *out)                                                                \
-    {                                                                                    \
-        return is_due() ? driver.result : vk##name(device, info, callbacks, out);        \
-    }
-CREATES(DEFINE)
-#undef DEFINE
-
-/* The others: parameters, and the same as arguments. */
-#define OTHERS(F)                                                                        \
-    F(AllocateDescriptorSets,                                                            \
-      (VkDevice d, const VkDescriptorSetAllocateInfo *i, VkDescriptorSet *out),          \
-      (d, i, out))                                                                       \
-    F(AllocateCommandBuffers,                                                            \
-      (VkDevice d, const VkCommandBufferAllocateInfo *i, VkCommandBuffer *out),          \
-      (d, i, out))                                                                       \
-    F(BindBufferMemory, (VkDevice d, VkBuffer b, VkDeviceMemory m, VkDeviceSize o),      \
-      (d, b, m, o))                                                                      \
-    F(BindImageMemory, (VkDevice d, VkImage b, VkDeviceMemory m, VkDeviceSize o),        \
-      (d, b, m, o))                                                                      \
-    F(MapMemory,                                                                         \
-      (VkDevice d, VkDeviceMemory m, VkDeviceSize o, VkDeviceSize s, VkMemoryMapFlags f, \
-       void **out),                                                                      \
-      (d, m, o, s, f, out))                                                              \
-    F(ResetCommandPool, (VkDevice d, VkCommandPool p, VkCommandPoolResetFlags f),        \
-      (d, p, f))                                                                         \
-    F(BeginCommandBuffer, (VkCommandBuffer c, const VkCommandBufferBeginInfo *i),        \
-      (c, i))                                                                            \
-    F(QueueSubmit2, (VkQueue q, uint32_t n, const VkSubmitInfo2 *s, VkFence f),          \
-      (q, n, s, f))
-
-#define DEFINE(name, parameters, arguments)                                              \
-    static VKAPI_ATTR VkResult VKAPI_CALL fail_##name parameters                         \
-    {                                                                                    \
-        return is_due() ? driver.result : vk##name arguments;                            \
-    }
-OTHERS(DEFINE)
-#undef DEFINE
-
-/* These do their work and then say that it failed: commands that are half recorded and
- * fences that are not waited for would be the test's own fault. */
-#define AFTERWARDS(F)                                                                    \
-    F(EndCommandBuffer, (VkCommandBuffer c), (c))                                        \
-    F(WaitForFences, (VkDevice d, uint32_t n, const VkFence *f, VkBool32 a, uint64_t t), \
-      (d, n, f, a, t))                                                                   \
-    F(ResetFences, (VkDevice d, uint32_t n, const VkFence *f), (d, n, f))
-
-#define DEFINE(name, parameters, arguments)                                              \
-    static VKAPI_ATTR VkResult VKAPI_CALL fail_##name parameters                         \
-    {                                                                                    \
-        const VkResult result = vk##name arguments;                                      \
-        return is_due() ? driver.result : result;                                        \
-    }
-AFTERWARDS(DEFINE)
-#undef DEFINE
-
-/* With several pipelines, those that were made are to be given back. */
-static VKAPI_ATTR VkResult VKAPI_CALL
-fail_CreateComputePipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
-                            const VkComputePipelineCreateInfo *infos,
-                            const VkAllocationCallbacks *callbacks, VkPipeline *out)
-{
-    if (is_due()) {
-        memset(out, 0, count * sizeof *out);
-        return driver.result;
-    }
-    return vkCreateComputePipelines(device, cache, count, infos, callbacks, out);
-}
-
-typedef struct named {
-    const char *name;
-    PFN_vkVoidFunction function;
-} named;
-
-#define ROW(name, a, b) {"vk" #name, (PFN_vkVoidFunction)fail_##name},
-static const named FAILING[] = {CREATES(ROW) OTHERS(ROW) AFTERWARDS(ROW){
-    "vkCreateComputePipelines", (PFN_vkVoidFunction)fail_CreateComputePipelines}};
-#undef ROW
-
-static PFN_vkVoidFunction failing(const char *name)
-{
-    for (size_t i = 0; i < sizeof FAILING / sizeof *FAILING; i++) {
-        if (strcmp(FAILING[i].name, name) == 0)
-            return FAILING[i].function;
-    }
-    return NULL;
-}
-
-static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL device_function(VkDevice device,
-                                                                const char *name)
-{
-    const PFN_vkVoidFunction f = failing(name);
-    return f ? f : vkGetDeviceProcAddr(device, name);
-}
-
-static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instance_function(VkInstance instance,
-                                                                  const char *name)
-{
-    if (strcmp(name, "vkGetDeviceProcAddr") == 0)
-        return (PFN_vkVoidFunction)device_function;
-    const PFN_vkVoidFunction f = failing(name);
-    return f ? f : vkGetInstanceProcAddr(instance, name);
-}
 
 /* ---- memory of the host's and of the device's ---- */
 
@@ -283,6 +149,7 @@ static life *begin_life(engine *e)
     assert_non_null(l);
     l->engine = e;
     l->host = engine_host(e);
+    l->host.get_instance_proc_addr = vulkan_driver_get; /* it counts objects */
     crv_context_desc_init(&l->desc, sizeof l->desc);
     l->desc.logger = (crv_logger){.fn = count_line, .user = l};
     l->desc.allocator =
@@ -342,6 +209,8 @@ static crv_status run_plan(life *l, crv_context *context, const crv_options *opt
     const crv_camera camera = crv_camera_perspective(WIDTH, HEIGHT, 1);
     const crv_image depth = crv_image_packed(l->planes[0], WIDTH, HEIGHT, 1);
     const crv_image result = crv_image_packed(l->planes[1], WIDTH, HEIGHT, 1);
+    crv_device_time times[CRV_MAX_DEVICE_TIMES];
+    int32_t count = 0;
     crv_gbuffer *gbuffer = NULL;
     crv_plan *plan = NULL;
     crv_status status = crv_gbuffer_create(context, size, &gbuffer);
@@ -353,6 +222,8 @@ static crv_status run_plan(life *l, crv_context *context, const crv_options *opt
         status = crv_plan_create(context, options, size, &plan);
     if (status == CRV_OK)
         status = crv_plan_run(plan, gbuffer, &result);
+    if (status == CRV_OK)
+        status = crv_plan_device_times(plan, times, &count);
     crv_plan_destroy(plan);
     crv_gbuffer_destroy(gbuffer);
     return status;
@@ -367,12 +238,16 @@ static crv_status live(life *l)
     crv_gbuffer_desc_init(&size, sizeof size, WIDTH, HEIGHT);
     crv_context *context = NULL;
     crv_vulkan_pass *pass = NULL;
+    crv_vulkan_time times[CRV_VULKAN_MAX_TIMES];
+    int32_t count = 0;
     double bandwidth = 0;
     crv_status status = crv_vulkan_context_create(&l->desc, &l->host, &context);
     if (status == CRV_OK)
         status = crv_vulkan_pass_create(context, &options, &size, &desc, &pass);
     if (status == CRV_OK)
         status = record(l, pass, 0);
+    if (status == CRV_OK)
+        status = crv_vulkan_pass_times(pass, 0, times, &count);
     if (status == CRV_OK)
         status = run_plan(l, context, &options, &size);
     if (status == CRV_OK) /* last: it takes the longest */
@@ -381,6 +256,7 @@ static crv_status live(life *l)
     crv_vulkan_pass_destroy(pass);
     crv_context_destroy(context);
     assert_int_equal(l->memory.held, 0);
+    assert_int_equal(driver.objects, 0);
     return status;
 }
 
@@ -414,13 +290,12 @@ static void every_call_of_the_driver_may_fail(void **state)
     } CASES[] = {{VK_ERROR_OUT_OF_DEVICE_MEMORY, CRV_ERROR_OUT_OF_MEMORY},
                  {VK_ERROR_DEVICE_LOST, CRV_ERROR_DEVICE}};
     life *l = begin_life(*state);
-    l->host.get_instance_proc_addr = instance_function;
     for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
         driver.result = CASES[i].result;
         const int failures =
             live_until_done(l, &driver.due, &driver.calls, CASES[i].status);
         /* Each of the functions above is called at least once. */
-        assert_true(failures >= (int)(sizeof FAILING / sizeof *FAILING));
+        assert_true(failures >= vulkan_driver_functions());
     }
     end_life(l);
 }
@@ -460,7 +335,6 @@ static void recording_allocates_nothing(void **state)
     crv_context *context = NULL;
     crv_vulkan_pass *pass = NULL;
     l->host.memory = (crv_vulkan_memory){allocate_piece, release_piece, &blocks};
-    l->host.get_instance_proc_addr = instance_function;
     assert_int_equal(crv_vulkan_context_create(&l->desc, &l->host, &context), CRV_OK);
     assert_int_equal(crv_vulkan_pass_create(context, &options, &size, &desc, &pass),
                      CRV_OK);

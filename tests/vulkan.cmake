@@ -45,9 +45,9 @@ endif()
 # What renderers call, under the validation layer.
 find_package(Vulkan QUIET)
 if(Vulkan_FOUND)
-    foreach(test test_vulkan_pass test_vulkan_failures)
-        crevice_test(${test} SOURCES ${test}.c vulkan_engine.c
-                ${PROJECT_SOURCE_DIR}/examples/vulkan_host_setup.c
+    foreach(test test_vulkan_pass test_vulkan_formats test_vulkan_failures)
+        crevice_test(${test} SOURCES ${test}.c vulkan_driver.c vulkan_engine.c vulkan_scene.c
+                vulkan_texels.c ${PROJECT_SOURCE_DIR}/examples/vulkan_host_setup.c
             LIBS crevice_fixture Vulkan::Vulkan)
         set_tests_properties(${test} PROPERTIES
             LABELS vulkan TIMEOUT 600 SKIP_RETURN_CODE 77)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Passes in the host's command buffer. */
+#include "vulkan/formats.h"
 #include "vulkan/slot.h"
 
 #include "core/camera.h"
@@ -54,41 +55,13 @@ static crv_status check_desc(const crv_logger *logger, const crv_vulkan_pass_des
     return CRV_OK;
 }
 
-static int has_features(const crv__device *d, VkFormat format,
-                        VkFormatFeatureFlags features)
-{
-    VkFormatProperties properties;
-    d->vk.GetPhysicalDeviceFormatProperties(d->physical, format, &properties);
-    return (properties.optimalTilingFeatures & features) == features;
-}
-
-static crv_status check_formats(const crv__device *d, const crv_vulkan_pass_desc *desc)
-{
-    const VkFormatFeatureFlags sampled = VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT,
-                               storage = VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT;
-    if (!has_features(d, desc->depth_format, sampled))
-        return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
-                         "pass: %s does not sample depth_format %d; give another",
-                         d->properties.deviceName, (int)desc->depth_format);
-    if (desc->normals && !has_features(d, desc->normal_format, sampled))
-        return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
-                         "pass: %s does not sample normal_format %d; give another",
-                         d->properties.deviceName, (int)desc->normal_format);
-    if (!has_features(d, desc->result_format, storage))
-        return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
-                         "pass: %s has no storage images of result_format %d; give "
-                         "R32_SFLOAT, which every device has",
-                         d->properties.deviceName, (int)desc->result_format);
-    return CRV_OK;
-}
-
 /* The smallest format that keeps the error far below what can be seen, where the device
  * has it; every device has the other. */
 static VkFormat preferred(const crv__device *d, VkFormat small, VkFormat sure)
 {
     const VkFormatFeatureFlags both =
         VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT | VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT;
-    return has_features(d, small, both) ? small : sure;
+    return crv__format_has(d, small, both) ? small : sure;
 }
 
 /* ---- life ---- */
@@ -144,7 +117,7 @@ crv_status crv_vulkan_pass_create(crv_context *context, const crv_options *optio
     if (status == CRV_OK)
         status = check_desc(logger, desc);
     if (status == CRV_OK)
-        status = check_formats(d, desc);
+        status = crv__formats_check(d, desc);
     if (status)
         return status;
     crv__setup setup = {.context = context,
@@ -208,21 +181,6 @@ void crv_vulkan_frame_init(crv_vulkan_frame *frame, size_t struct_size)
     frame->normals.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 }
 
-static int is_readable(const crv_vulkan_input *input)
-{
-    switch (input->layout) {
-    case VK_IMAGE_LAYOUT_GENERAL:
-    case VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL:
-    case VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL:
-    case VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL:
-    case VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL:
-    case VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_STENCIL_ATTACHMENT_OPTIMAL:
-        return input->view != VK_NULL_HANDLE;
-    default:
-        return 0;
-    }
-}
-
 static crv_status check_frame(const crv_vulkan_pass *p, VkCommandBuffer commands,
                               const crv_vulkan_frame *frame)
 {
@@ -238,30 +196,13 @@ static crv_status check_frame(const crv_vulkan_pass *p, VkCommandBuffer commands
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "pass: index is %d; use 0 to %d, one for each frame in flight",
                          frame->index, p->desc.frames - 1);
-    for (int32_t i = 0; i < p->setup.desc.layers; i++) {
-        if (!is_readable(&frame->depth[i]))
-            return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
-                             "pass: depth layer %d has no view, or layout %d, which "
-                             "shaders cannot read",
-                             i, (int)frame->depth[i].layout);
-    }
-    if (p->desc.normals && !is_readable(&frame->normals))
-        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
-                         "pass: normals have no view, or layout %d, which shaders cannot "
-                         "read",
-                         (int)frame->normals.layout);
     if (!frame->result || !frame->result_view)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "pass: the result's image or view is missing; set result and "
                          "result_view");
-    if (frame->result_layout == VK_IMAGE_LAYOUT_UNDEFINED
-        || frame->result_layout == VK_IMAGE_LAYOUT_PREINITIALIZED)
-        return crv__fail(
-            logger, CRV_ERROR_INVALID_ARGUMENT,
-            "pass: the result cannot be left in layout %d; give the one that it "
-            "is read in",
-            (int)frame->result_layout);
-    return crv__camera_check(logger, &frame->camera);
+    const crv_status status =
+        crv__layouts_check(logger, &p->desc, p->setup.desc.layers, frame);
+    return status ? status : crv__camera_check(logger, &frame->camera);
 }
 
 static void fill_params(crv_vulkan_pass *p, const crv_vulkan_frame *frame,
