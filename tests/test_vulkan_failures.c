@@ -5,11 +5,15 @@
  * and one line has to say what happened. The driver's calls fail in a table of functions
  * that this host gives instead of the loader's, so that no driver has to play along.
  */
+#define _GNU_SOURCE /* dladdr() */
 #include "fixture.h"
 
-#include <math.h>
+#include <dlfcn.h>
+#include <execinfo.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "vulkan_driver.h"
 #include "vulkan_engine.h"
@@ -132,6 +136,7 @@ typedef struct life {
     crv_context_desc desc;
     source memory;
     int errors; /* lines */
+    int without_bandwidth;
     host_image depth, result;
     float planes[2][PIXELS];
 } life;
@@ -250,9 +255,9 @@ static crv_status live(life *l)
         status = crv_vulkan_pass_times(pass, 0, times, &count);
     if (status == CRV_OK)
         status = run_plan(l, context, &options, &size);
-    if (status == CRV_OK) /* last: it takes the longest */
+    if (status == CRV_OK && !l->without_bandwidth) /* last: it takes the longest */
         status = crv_context_device_bandwidth(context, &bandwidth);
-    assert_true(status != CRV_OK || bandwidth > 0);
+    assert_true(status != CRV_OK || bandwidth > 0 || l->without_bandwidth);
     crv_vulkan_pass_destroy(pass);
     crv_context_destroy(context);
     assert_int_equal(l->memory.held, 0);
@@ -282,22 +287,31 @@ static int live_until_done(life *l, int *due, int *calls, crv_status wanted)
     return -1;
 }
 
+static void calls_fail_with(engine *e, VkResult result, crv_status status,
+                            int with_bandwidth)
+{
+    life *l = begin_life(e);
+    l->without_bandwidth = !with_bandwidth;
+    driver.result = result;
+    /* Each of the functions is called at least once. */
+    assert_true(live_until_done(l, &driver.due, &driver.calls, status)
+                >= vulkan_driver_functions());
+    end_life(l);
+}
+
 static void every_call_of_the_driver_may_fail(void **state)
 {
-    static const struct {
-        VkResult result;
-        crv_status status;
-    } CASES[] = {{VK_ERROR_OUT_OF_DEVICE_MEMORY, CRV_ERROR_OUT_OF_MEMORY},
-                 {VK_ERROR_DEVICE_LOST, CRV_ERROR_DEVICE}};
-    life *l = begin_life(*state);
-    for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
-        driver.result = CASES[i].result;
-        const int failures =
-            live_until_done(l, &driver.due, &driver.calls, CASES[i].status);
-        /* Each of the functions above is called at least once. */
-        assert_true(failures >= vulkan_driver_functions());
-    }
-    end_life(l);
+    calls_fail_with(*state, VK_ERROR_OUT_OF_DEVICE_MEMORY, CRV_ERROR_OUT_OF_MEMORY, 1);
+}
+
+/* The ways out are those of memory, which the layer has watched: here they are quick. */
+static void the_device_may_be_lost_at_every_call(void **state)
+{
+    engine plain;
+    (void)state;
+    assert_int_equal(engine_open(&plain, 0), 0);
+    calls_fail_with(&plain, VK_ERROR_DEVICE_LOST, CRV_ERROR_DEVICE, 0);
+    engine_close(&plain);
 }
 
 static void every_allocation_may_fail(void **state)
@@ -353,15 +367,19 @@ static void recording_allocates_nothing(void **state)
  * old one. */
 enum { HEADER = 64 };
 
+static const char *failed_call; /* for which the last allocation that failed was */
+
 static VKAPI_ATTR void *VKAPI_CALL allocate_for_driver(void *user, size_t size,
                                                        size_t alignment,
                                                        VkSystemAllocationScope scope)
 {
     source *s = user;
+    const int fails = source_is_due(s);
     (void)scope;
-    s->calls++;
+    if (fails)
+        failed_call = driver.call;
     unsigned char *memory =
-        alignment <= HEADER
+        !fails && alignment <= HEADER
             ? aligned_alloc(HEADER, (size + 2 * HEADER - 1) / HEADER * HEADER)
             : NULL;
     if (!memory)
@@ -395,19 +413,151 @@ static VKAPI_ATTR void *VKAPI_CALL reallocate_for_driver(void *user, void *old,
     return memory;
 }
 
+static VkAllocationCallbacks callbacks_of(source *memory)
+{
+    return (VkAllocationCallbacks){.pUserData = memory,
+                                   .pfnAllocation = allocate_for_driver,
+                                   .pfnReallocation = reallocate_for_driver,
+                                   .pfnFree = free_of_driver};
+}
+
 static void the_callbacks_of_the_host_get_back_what_they_gave(void **state)
 {
     life *l = begin_life(*state);
     source memory = {0};
-    const VkAllocationCallbacks callbacks = {.pUserData = &memory,
-                                             .pfnAllocation = allocate_for_driver,
-                                             .pfnReallocation = reallocate_for_driver,
-                                             .pfnFree = free_of_driver};
+    const VkAllocationCallbacks callbacks = callbacks_of(&memory);
     l->host.callbacks = &callbacks;
     assert_int_equal(live(l), CRV_OK);
     assert_true(memory.calls > 0);
     assert_int_equal(memory.held, 0);
     end_life(l);
+}
+
+/*
+ * ---- callbacks that give nothing ----
+ *
+ * What the driver makes of it is its own: it may crash, and it may keep what it had taken
+ * for an object that it then did not make. Hence another process lives, and says before
+ * each life which allocation will fail; where it crashes inside the driver the next one
+ * goes on behind that. Everything else that goes wrong is Crevice's.
+ */
+
+static const char *this_program;
+static int first_due; /* of this process, where it is the other one */
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define SANITIZED 1
+#endif
+#endif
+
+/* Tells of the innermost object that is neither the C library nor this program, and of
+ * the call for which it had been refused memory and in which it still is. */
+static void tell_of_crash(int number)
+{
+    void *frames[64];
+    const int count = backtrace(frames, 64);
+    Dl_info here, info;
+    dladdr((void *)(uintptr_t)tell_of_crash, &here);
+    for (int i = 1; i < count; i++) {
+        if (!dladdr(frames[i], &info) || !info.dli_fname
+            || strcmp(info.dli_fname, here.dli_fname) == 0
+            || strstr(info.dli_fname, "/libc.so"))
+            continue;
+        printf("crash %s in %s\n", info.dli_fname,
+               driver.call && driver.call == failed_call ? driver.call : "another call");
+        break;
+    }
+    fflush(stdout);
+    _exit(128 + number);
+}
+
+static void lives_of_the_other_process(void **state)
+{
+    life *l = begin_life(*state);
+    source memory = {0};
+    const VkAllocationCallbacks callbacks = callbacks_of(&memory);
+    const int signals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGABRT};
+    crv_status status = CRV_ERROR_DEVICE;
+    l->host.callbacks = &callbacks;
+    l->without_bandwidth = 1; /* it only does more of the same */
+    for (size_t i = 0; i < sizeof signals / sizeof *signals; i++)
+        signal(signals[i], tell_of_crash);
+    for (int n = first_due; memory.calls >= memory.due; n++) {
+        printf("life %d\n", n);
+        fflush(stdout);
+        memory = (source){.due = n};
+        l->errors = 0;
+        status = live(l); /* it asserts that objects and our own memory are given back */
+        if (status == CRV_OK && memory.calls >= n) {
+            printf("unimpressed\n"); /* it did without */
+        } else if (status != CRV_OK && status != CRV_ERROR_OUT_OF_MEMORY
+                   && status != CRV_ERROR_DEVICE) {
+            fail_msg("allocation %d: status %d", n, (int)status);
+        }
+        if (l->errors != (status != CRV_OK))
+            fail_msg("allocation %d: %d lines", n, l->errors);
+        if (memory.held)
+            printf("kept\n"); /* by the driver: no object is left */
+    }
+    assert_int_equal(status, CRV_OK);
+    assert_int_equal(memory.held, 0);
+    printf("done\n");
+    end_life(l);
+}
+
+typedef struct verdict {
+    int life, crashes, kept, unimpressed, done, ours;
+    char told[4096]; /* lines about crashes of the driver, each once */
+} verdict;
+
+static void read_line(verdict *v, const char *line)
+{
+    if (sscanf(line, "life %d", &v->life) == 1)
+        return;
+    v->done += strcmp(line, "done\n") == 0;
+    v->kept += strcmp(line, "kept\n") == 0;
+    v->unimpressed += strcmp(line, "unimpressed\n") == 0;
+    if (strncmp(line, "crash ", 6) == 0) {
+        const int drivers = strstr(line, "vulkan_") && !strstr(line, "crevice")
+                            && !strstr(line, "another call");
+        v->crashes += drivers;
+        v->ours += !drivers;
+        if (!drivers || !strstr(v->told, line))
+            print_message("allocation %d: %s", v->life, line);
+        if (!strstr(v->told, line) && strlen(v->told) + strlen(line) < sizeof v->told)
+            strcat(v->told, line);
+    } else if (strncmp(line, "ERROR: ", 7) == 0) {
+        print_message("%s", line);
+    }
+}
+
+static void every_allocation_of_the_callbacks_may_fail(void **state)
+{
+    char command[512], line[512];
+    verdict v = {0};
+    (void)state;
+#ifdef SANITIZED
+    skip(); /* they catch signals themselves; other tests take the same ways out */
+#endif
+    for (int from = 1; !v.done; from = v.life + 1) {
+        const int crashes = v.crashes;
+        snprintf(command, sizeof command, "\"%s\" --lives-from %d 2>&1", this_program,
+                 from);
+        FILE *other = popen(command, "r");
+        assert_non_null(other);
+        while (fgets(line, sizeof line, other))
+            read_line(&v, line);
+        const int failed = pclose(other) != 0;
+        if (v.ours || failed != (v.crashes > crashes) || v.life < from)
+            fail_msg("allocation %d: it did not end well", v.life);
+    }
+    print_message("%d allocations: the driver crashed at %d, did without %d, and kept "
+                  "memory after %d\n",
+                  v.life - 1, v.crashes, v.unimpressed, v.kept);
+    assert_true(v.life > 10);
 }
 
 static void a_window_may_be_resized_for_ever(void **state)
@@ -486,17 +636,34 @@ static int open_all(void **state)
     return 0;
 }
 
-int main(void)
+/* test_vulkan_failures --lives-from N */
+static int live_here(const char *from)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lives_of_the_other_process)};
+    first_due = (int)strtol(from, NULL, 10);
+    if (engine_open(&the_engine, 0) != 0)
+        return 1;
+    const int failed = cmocka_run_group_tests(tests, open_all, NULL);
+    engine_close(&the_engine);
+    return failed;
+}
+
+int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_call_of_the_driver_may_fail),
+        cmocka_unit_test(the_device_may_be_lost_at_every_call),
         cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(every_piece_of_device_memory_may_fail),
         cmocka_unit_test(recording_allocates_nothing),
         cmocka_unit_test(the_callbacks_of_the_host_get_back_what_they_gave),
+        cmocka_unit_test(every_allocation_of_the_callbacks_may_fail),
         cmocka_unit_test(a_window_may_be_resized_for_ever),
         cmocka_unit_test(a_device_of_ones_own_may_fail),
     };
+    if (argc == 3 && strcmp(argv[1], "--lives-from") == 0)
+        return live_here(argv[2]);
+    this_program = argv[0];
     if (engine_open(&the_engine, 1) != 0) {
         printf("SKIPPED: no Vulkan 1.3 device, or no validation layer\n");
         return getenv("CI") ? 1 : 77;

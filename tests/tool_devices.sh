@@ -11,6 +11,8 @@ listing = json.load(sys.stdin)
 assert "scalar" in listing["cpu"]
 for i, device in enumerate(listing["vulkan"]):
     assert device["device"] == "vulkan:%d" % i and device["name"], device
+    # A name and a version of the driver, and of Vulkan, that a person can look up.
+    assert "0x" not in device["driver"] and ", Vulkan 1." in device["driver"], device
 assert listing["vulkan"] or listing["vulkan_missing"].startswith("vulkan: ")
 ' <stdout.txt || fail "devices --json"
 fi

@@ -10,7 +10,8 @@ typedef struct vulkan_driver {
     int calls; /* that may fail, so far */
     int due;   /* the call that fails, from 1; 0: none */
     VkResult result;
-    int objects; /* that were made and not destroyed */
+    int objects;      /* that were made and not destroyed */
+    const char *call; /* that the real driver is at; NULL: none that takes memory */
 } vulkan_driver;
 
 /* Of the process: functions of Vulkan know of no user pointer. */

@@ -81,7 +81,7 @@ CRV_API crv_isa crv_context_isa(const crv_context *context);
 /* A device for crv_context_desc. */
 typedef struct crv_device_info {
     char name[256];    /* as the driver gives it */
-    char driver[64];   /* version numbers of the driver and of Vulkan */
+    char driver[256];  /* its name and version as it gives them; Vulkan's version */
     int32_t software;  /* 1: runs on the CPU (lavapipe) */
     char missing[128]; /* why Crevice cannot use it; "": it can */
 } crv_device_info;
@@ -148,8 +148,8 @@ typedef struct crv_device_time {
 /*
  * The steps of the plan's last run by the device's own clock. times: room for
  * CRV_MAX_DEVICE_TIMES; *count says how many were written. Errors: INVALID_ARGUMENT;
- * NOT_READY before the first run; UNSUPPORTED on the CPU, or where the device has no
- * timestamps; DEVICE where its driver fails.
+ * NOT_READY before the first run that ended well; UNSUPPORTED on the CPU, or where the
+ * device has no timestamps; DEVICE where its driver fails.
  */
 CRV_API crv_status crv_plan_device_times(const crv_plan *plan, crv_device_time *times,
                                          int32_t *count);

@@ -240,11 +240,12 @@ typedef struct crv_vulkan_time {
 #define CRV_VULKAN_MAX_TIMES 16
 
 /*
- * Times of the last recording of the frame in flight `index`, once it has been executed.
+ * Times of the last recording of the frame in flight `index`, which must have been
+ * submitted.
  * times: room for CRV_VULKAN_MAX_TIMES; *count says how many were written. Does not wait.
- * Errors: INVALID_ARGUMENT; NOT_READY while it is executed, or where nothing was
- * recorded; UNSUPPORTED where desc.timestamps is not set or the queue family has none;
- * DEVICE where the driver fails.
+ * Errors: INVALID_ARGUMENT; NOT_READY while it is executed (not logged: it is what asking
+ * is for), or where nothing was recorded; UNSUPPORTED where desc.timestamps is not set or
+ * the queue family has none; DEVICE where the driver fails.
  */
 CRV_API crv_status crv_vulkan_pass_times(crv_vulkan_pass *pass, int32_t index,
                                          crv_vulkan_time *times, int32_t *count);

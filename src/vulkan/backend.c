@@ -246,10 +246,13 @@ static crv_status times(const crv__setup *setup, const void *data, crv_device_ti
     if (!slot->queries)
         return crv__fail(&state->program.device->logger, CRV_ERROR_UNSUPPORTED,
                          "plan: the device has no timestamps");
-    if (slot->query_count == 0)
-        return CRV_ERROR_NOT_READY;
     double times_ms[CRV__MOST_STEPS];
-    const crv_status status = crv__slot_times(slot, times_ms);
+    const crv_status status =
+        slot->query_count ? crv__slot_times(slot, times_ms) : CRV_ERROR_NOT_READY;
+    if (status == CRV_ERROR_NOT_READY)
+        return crv__fail(&state->program.device->logger, status,
+                         "plan: no run has ended well, so that there are no times; call "
+                         "crv_plan_run() first");
     if (status)
         return status;
     int32_t step = 0;

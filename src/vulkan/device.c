@@ -334,6 +334,26 @@ crv_status crv_vulkan_context_create(const crv_context_desc *desc,
     return status;
 }
 
+static void describe(const crv__device *d, crv_device_info *info)
+{
+    VkPhysicalDeviceDriverProperties driver = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
+    d->vk.GetPhysicalDeviceProperties2(d->physical, &properties);
+    const VkPhysicalDeviceProperties *p = &properties.properties;
+    const uint32_t api = p->apiVersion;
+    *info = (crv_device_info){.software = p->deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU};
+    if (!driver.driverName[0]) /* before Vulkan 1.2 there is only a number */
+        snprintf(driver.driverName, sizeof driver.driverName, "driver 0x%x",
+                 p->driverVersion);
+    snprintf(info->name, sizeof info->name, "%s", p->deviceName);
+    snprintf(info->driver, sizeof info->driver, "%.100s%s%.100s, Vulkan %u.%u.%u",
+             driver.driverName, driver.driverInfo[0] ? " " : "", driver.driverInfo,
+             VK_API_VERSION_MAJOR(api), VK_API_VERSION_MINOR(api),
+             VK_API_VERSION_PATCH(api));
+}
+
 crv_status crv_vulkan_device_info(int32_t index, crv_device_info *info,
                                   const crv_logger *logger)
 {
@@ -349,14 +369,7 @@ crv_status crv_vulkan_device_info(int32_t index, crv_device_info *info,
     if (status == CRV_OK)
         status = choose_physical(d, index, &count);
     if (status == CRV_OK) {
-        VkPhysicalDeviceProperties p;
-        d->vk.GetPhysicalDeviceProperties(d->physical, &p);
-        *info =
-            (crv_device_info){.software = p.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU};
-        snprintf(info->name, sizeof info->name, "%s", p.deviceName);
-        snprintf(info->driver, sizeof info->driver, "driver 0x%x, Vulkan %u.%u.%u",
-                 p.driverVersion, VK_API_VERSION_MAJOR(p.apiVersion),
-                 VK_API_VERSION_MINOR(p.apiVersion), VK_API_VERSION_PATCH(p.apiVersion));
+        describe(d, info);
         snprintf(info->missing, sizeof info->missing, "%s", lacking(d, d->physical));
     }
     crv__device_destroy(d);

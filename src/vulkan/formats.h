@@ -13,7 +13,8 @@ int crv__format_has(const crv__device *d, VkFormat format, VkFormatFeatureFlags 
  * where a format is none that is listed or the device lacks it. Each logs its line. */
 crv_status crv__formats_check(const crv__device *d, const crv_vulkan_pass_desc *desc);
 
-/* INVALID_ARGUMENT with a line where a view is missing, or a layout can never be right. */
+/* INVALID_ARGUMENT with a line where a view is missing, or a layout can never be right.
+ */
 crv_status crv__layouts_check(const crv_logger *logger, const crv_vulkan_pass_desc *desc,
                               int32_t layers, const crv_vulkan_frame *frame);
 

@@ -393,7 +393,10 @@ crv_status crv_vulkan_pass_times(crv_vulkan_pass *p, int32_t index,
                          "pass: no timestamps; set desc.timestamps, on a queue family "
                          "that has them");
     if (!p->recorded[index])
-        return CRV_ERROR_NOT_READY;
+        return crv__fail(&d->logger, CRV_ERROR_NOT_READY,
+                         "pass: nothing was recorded for frame %d, so that there are no "
+                         "times; call crv_vulkan_pass_record() first",
+                         index);
     double times_ms[CRV__MOST_STEPS];
     const crv_status status = crv__slot_times(slot, times_ms);
     if (status)

@@ -70,8 +70,8 @@ void crv__slot_record_step(crv__slot *s, VkCommandBuffer commands,
 /* The estimate, in as many dispatches as the program says; fills the push's part. */
 void crv__slot_record_estimate(crv__slot *s, VkCommandBuffer commands, crv__push *push);
 
-/* Milliseconds of the steps whose times were noted since the beginning; NOT_READY while
- * they are executed. */
+/* Milliseconds of the steps whose times were noted since the beginning; NOT_READY, not
+ * logged, while they are executed. */
 crv_status crv__slot_times(const crv__slot *s, double times_ms[CRV__MOST_STEPS]);
 
 /* Notes the time at which all before is done. */
