@@ -421,8 +421,21 @@ static int open_all(void **state)
     return 0;
 }
 
-int main(void)
+/* test_vulkan_formats --usual: one recording, for the layer that instruments shaders. */
+static void the_usual_formats(void **state)
 {
+    bench *b = open_bench(*state);
+    agrees(b, USUAL);
+    assert_int_equal(b->tried, 1);
+    close_bench(b);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest usual[] = {
+        cmocka_unit_test(the_usual_formats),
+        cmocka_unit_test(the_validation_layer_is_silent),
+    };
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(depth_in_every_listed_format),
         cmocka_unit_test(normals_in_every_listed_format),
@@ -436,7 +449,9 @@ int main(void)
         printf("SKIPPED: no Vulkan 1.3 device, or no validation layer\n");
         return getenv("CI") ? 1 : 77;
     }
-    const int failed = cmocka_run_group_tests(tests, open_all, NULL);
+    const int failed = argc > 1 && strcmp(argv[1], "--usual") == 0
+                           ? cmocka_run_group_tests(usual, open_all, NULL)
+                           : cmocka_run_group_tests(tests, open_all, NULL);
     engine_close(&the_engine);
     return failed || the_engine.h.complaints;
 }
