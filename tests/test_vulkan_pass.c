@@ -279,6 +279,36 @@ static void bad_passes_are_refused_with_one_line(void **state)
     assert_int_equal(crv_vulkan_pass_bytes(NULL), 0);
 }
 
+static void what_lavapipe_would_break_off_is_refused_there(void **state)
+{
+    engine *g = *state;
+    scene_lines log = {0};
+    crv_context *context = scene_context(g, &log);
+    const crv_vulkan_pass_desc desc = scene_pass_desc(&ENCODINGS[0]);
+    crv_options options = fixture_options("raymarch");
+    VkPhysicalDeviceDriverProperties driver = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
+    vkGetPhysicalDeviceProperties2(g->h.physical, &properties);
+    crv_gbuffer_desc size;
+    crv_vulkan_pass *pass = NULL;
+    crv_gbuffer_desc_init(&size, sizeof size, 8, 8);
+    size.layers = CRV_MAX_LAYERS;
+    options.steps = 256;
+    options.normal_rays = 64; /* 83000 rounds for one direction */
+    const crv_status status =
+        crv_vulkan_pass_create(context, &options, &size, &desc, &pass);
+    if (driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE) {
+        assert_refused(&log, status, CRV_ERROR_UNSUPPORTED);
+        assert_non_null(strstr(log.last, "lavapipe"));
+    } else {
+        assert_int_equal(status, CRV_OK);
+    }
+    crv_vulkan_pass_destroy(pass);
+    crv_context_destroy(context);
+}
+
 static void bad_frames_are_refused_with_one_line(void **state)
 {
     engine *g = *state;
@@ -397,6 +427,7 @@ int main(void)
         cmocka_unit_test(times_are_of_every_pass),
         cmocka_unit_test(a_plan_has_no_times_before_its_first_run),
         cmocka_unit_test(bad_passes_are_refused_with_one_line),
+        cmocka_unit_test(what_lavapipe_would_break_off_is_refused_there),
         cmocka_unit_test(bad_frames_are_refused_with_one_line),
         cmocka_unit_test(bad_hosts_are_refused_with_one_line),
         cmocka_unit_test(the_validation_layer_is_silent),
