@@ -55,6 +55,9 @@ typedef struct crv_context_desc {
     int32_t exact;
     crv_device device;    /* default CRV_DEVICE_CPU */
     int32_t device_index; /* Vulkan: as crv_vulkan_device_info() counts; default 0 */
+    /* Vulkan, for plans; crv_vulkan_pass_desc has the same for passes. 1: filters compute
+     * in half floats where the device can; within 2e-3 of the others. Default 0. */
+    int32_t half_filters;
 } crv_context_desc;
 
 /* Sets the defaults. Pass sizeof *desc as struct_size. Thread-safe. */

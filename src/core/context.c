@@ -60,6 +60,9 @@ crv_status crv__context_create_bare(const crv_context_desc *desc, crv_context **
     if (desc->exact != 0 && desc->exact != 1)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "context: exact is %d; use 0 or 1", desc->exact);
+    if (desc->half_filters != 0 && desc->half_filters != 1)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "context: half_filters is %d; use 0 or 1", desc->half_filters);
     crv_allocator allocator =
         desc->allocator.allocate ? desc->allocator : crv__default_allocator();
     crv_context *context = crv__allocate(&allocator, 1, sizeof *context);
@@ -71,6 +74,7 @@ crv_status crv__context_create_bare(const crv_context_desc *desc, crv_context **
                              .threads = desc->threads,
                              .isa_mask = desc->isa_mask ? desc->isa_mask : UINT32_MAX,
                              .exact = desc->exact,
+                             .half_filters = desc->half_filters,
                              .backend = &crv__cpu_backend};
     *out = context;
     return CRV_OK;

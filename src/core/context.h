@@ -16,6 +16,7 @@ struct crv_context {
     int32_t threads;
     uint32_t isa_mask; /* never 0 */
     int32_t exact;     /* 0 or 1 */
+    int half_filters;  /* on a device, as in crv_context_desc */
     const crv__backend *backend;
     void *device; /* the backend's; NULL: none */
 };

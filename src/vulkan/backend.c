@@ -46,7 +46,7 @@ static void plan_destroy(const crv__setup *setup, void *data)
 static crv_status plan_create(const crv__setup *setup, const crv__plane *rectangle,
                               void **out)
 {
-    static const crv__program_desc PROGRAM = {.edge = 1};
+    const crv__program_desc program = {.edge = 1, .half = setup->context->half_filters};
     const crv__device *d = crv__device_of(setup->context);
     const crv__slot_desc slot = {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R32_SFLOAT,
                                  d->timestamp_bits > 0};
@@ -57,7 +57,7 @@ static crv_status plan_create(const crv__setup *setup, const crv__plane *rectang
     plan_state *state = crv__allocate(&setup->context->allocator, 1, sizeof *state);
     if (!state)
         return crv__fail(&d->logger, CRV_ERROR_OUT_OF_MEMORY, "plan: out of memory");
-    status = crv__program_create(&state->program, d, setup, &PROGRAM);
+    status = crv__program_create(&state->program, d, setup, &program);
     if (status == CRV_OK)
         status = crv__slot_create(&state->slot, &state->program, setup, &slot);
     if (status == CRV_OK)

@@ -20,6 +20,7 @@ typedef struct crv__device {
     VkQueue queue; /* VK_NULL_HANDLE: the host gave none */
     uint32_t family, timestamp_bits;
     int is_lavapipe;
+    int has_half; /* shaderFloat16 is there and on */
     VkPhysicalDeviceProperties properties;
     VkPhysicalDeviceMemoryProperties heaps;
     const VkAllocationCallbacks *callbacks;

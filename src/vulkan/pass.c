@@ -26,7 +26,8 @@ void crv_vulkan_pass_desc_init(crv_vulkan_pass_desc *desc, size_t struct_size)
     *desc = (crv_vulkan_pass_desc){.struct_size = struct_size,
                                    .frames = 2,
                                    .depth_format = VK_FORMAT_D32_SFLOAT,
-                                   .result_format = VK_FORMAT_R8_UNORM};
+                                   .result_format = VK_FORMAT_R8_UNORM,
+                                   .half_filters = VK_TRUE};
 }
 
 static crv_status check_desc(const crv_logger *logger, const crv_vulkan_pass_desc *desc)
@@ -113,6 +114,7 @@ static crv_status create_parts(crv_vulkan_pass *p)
         .accessibility_format = preferred(d, VK_FORMAT_R16_SFLOAT, VK_FORMAT_R32_SFLOAT),
         .timestamps = p->desc.timestamps && d->timestamp_bits > 0};
     const crv__program_desc program = {.converts = 1,
+                                       .half = p->desc.half_filters != VK_FALSE,
                                        .edge = apart_edge(d, &p->setup, &p->desc),
                                        .level_px =
                                            p->desc.deinterleave ? 0 : p->desc.level_px};

@@ -11,14 +11,16 @@ enum { CRV__MOST_PASSES = 2 }; /* of a filter */
 
 typedef struct crv__pipeline {
     VkPipeline pipeline;
-    int32_t group;      /* edge of a workgroup, px */
-    int32_t interleave; /* pixels from one invocation to the next */
+    int32_t group;            /* edge of a workgroup, invocations */
+    int32_t lanes_x, lanes_y; /* pixels of an invocation */
+    int32_t interleave;       /* pixels from one invocation to the next */
 } crv__pipeline;
 
 /* What a program does beside estimate and filter. */
 typedef struct crv__program_desc {
     int converts;     /* 0 or 1: the host's images are converted on the device */
     int32_t edge;     /* depth is taken apart by so many px; 1: it is not */
+    int half;         /* 0 or 1: filters compute in half floats where the device can */
     int32_t level_px; /* from where coarser levels of depth are read; 0: never */
 } crv__program_desc;
 

@@ -96,13 +96,15 @@ void crv__slot_record_step(crv__slot *s, VkCommandBuffer commands,
     const crv__program *p = s->program;
     const crv__device *d = p->device;
     const int32_t step = pipeline->interleave, tile = pipeline->group * step;
+    const int32_t tile_x = tile * pipeline->lanes_x, tile_y = tile * pipeline->lanes_y;
     d->vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
     d->vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
                                 d->pipelines->layout, 0, 1, &set, 0, NULL);
     d->vk.CmdPushConstants(commands, d->pipelines->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                            sizeof *push, push);
-    d->vk.CmdDispatch(commands, (uint32_t)((push->out_width + tile - 1) / tile * step),
-                      (uint32_t)((push->out_height + tile - 1) / tile * step), 1);
+    d->vk.CmdDispatch(commands,
+                      (uint32_t)((push->out_width + tile_x - 1) / tile_x * step),
+                      (uint32_t)((push->out_height + tile_y - 1) / tile_y * step), 1);
 }
 
 void crv__slot_record_time(crv__slot *s, VkCommandBuffer commands)
