@@ -202,8 +202,9 @@ CRV_API crv_status crv_vulkan_pass_record(crv_vulkan_pass *pass, VkCommandBuffer
 
 /* The time that a step of a recording took on the device. */
 typedef struct crv_vulkan_time {
-    /* "depth" (one for each layer), "normals", "deinterleave", "levels", the method's
-     * name, and the filter's, or "filter, first pass" and "filter, second pass"; static.
+    /* "depth and normals", "depth" (each further layer), "deinterleave", "levels", the
+     * method's name, and the filter's, or "filter, first pass" and "filter, second pass";
+     * static.
      */
     const char *name;
     double time_ms;

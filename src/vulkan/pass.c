@@ -343,20 +343,21 @@ static void record_converts(crv_vulkan_pass *p, crv__slot *slot, VkCommandBuffer
 {
     const crv_gbuffer_desc *g = &p->setup.desc;
     set_out(push, (crv__rectangle){0, 0, g->width, g->height});
-    for (push->layer = 0; push->layer < g->layers; push->layer++) {
-        const VkDescriptorSet set = slot->depth_set[push->layer];
-        const crv_vulkan_input *depth = &frame->depth[push->layer];
-        crv__bind_image(&p->program, set, CRV__BIND_HOST, depth->view, depth->layout);
-        crv__slot_record_step(slot, commands, &p->program.depth, set, push);
+    for (int32_t layer = 0; layer < g->layers; layer++) {
+        const VkDescriptorSet set = slot->depth_set[layer];
+        const crv_vulkan_input *depth = &frame->depth[layer];
+        crv__bind_image(&p->program, set, CRV__BIND_HOST_DEPTH, depth->view,
+                        depth->layout);
+        if (layer == 0 && p->desc.normals)
+            crv__bind_image(&p->program, set, CRV__BIND_HOST_NORMALS, frame->normals.view,
+                            frame->normals.layout);
+        crv__slot_record_step(slot, commands,
+                              layer == 0 ? &p->program.convert : &p->program.depth, set,
+                              push);
         crv__slot_record_time(slot, commands);
     }
-    push->layer = 0;
-    record_between(p->device, commands);
-    if (p->desc.normals)
-        crv__bind_image(&p->program, slot->normals_set, CRV__BIND_HOST,
-                        frame->normals.view, frame->normals.layout);
-    crv__slot_record_step(slot, commands, &p->program.normals, slot->normals_set, push);
-    crv__slot_record_time(slot, commands);
+    if (p->program.deinterleave.pipeline || p->program.prefilter.pipeline)
+        record_between(p->device, commands);
     record_layouts(p, slot, commands, push);
     record_between(p->device, commands);
 }
@@ -424,11 +425,11 @@ crv_status crv_vulkan_pass_record(crv_vulkan_pass *p, VkCommandBuffer commands,
 static const char *step_name(const crv_vulkan_pass *p, int32_t step)
 {
     static const char *const PASSES[2] = {"filter, first pass", "filter, second pass"};
+    if (step == 0)
+        return "depth and normals";
     if (step < p->setup.desc.layers)
         return "depth";
     step -= p->setup.desc.layers;
-    if (step-- == 0)
-        return "normals";
     if (p->program.deinterleave.pipeline && step-- == 0)
         return "deinterleave";
     if (p->program.prefilter.pipeline && step-- == 0)

@@ -19,7 +19,9 @@ enum {
     CRV__BIND_NORMALS,
     CRV__BIND_INPUT,
     CRV__BIND_OUTPUT,
-    CRV__BIND_HOST,
+    CRV__BIND_HOST_DEPTH,
+    CRV__BIND_HOST_NORMALS,
+    CRV__BIND_NORMALS_OUTPUT,
     CRV__BINDINGS
 };
 
@@ -69,6 +71,8 @@ struct crv__pipelines {
 /* Sets d->pipelines. Where it fails, crv__pipelines_close() takes back the rest. */
 crv_status crv__pipelines_open(crv__device *d);
 void crv__pipelines_close(crv__device *d);
+
+VkDescriptorType crv__binding_type(uint32_t binding);
 
 /* The pipeline of a shader with these constants; to be given back. */
 crv_status crv__pipeline_take(const crv__device *d, const char *shader,

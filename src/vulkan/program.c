@@ -131,9 +131,9 @@ static crv_status take_pipelines(crv__program *p, const crv__setup *setup)
     for (int32_t i = 0; status == CRV_OK && i < p->passes; i++)
         status = take_filter(p, setup, filter_group(p->device), i);
     if (status == CRV_OK && p->desc.converts)
+        status = take_other(p, "convert", GROUP, 1, &p->convert);
+    if (status == CRV_OK && p->desc.converts && setup->desc.layers > 1)
         status = take_other(p, "depth_convert", GROUP, 1, &p->depth);
-    if (status == CRV_OK && p->desc.converts)
-        status = take_other(p, "normals_convert", GROUP, 1, &p->normals);
     if (status == CRV_OK && p->desc.edge > 1)
         status = take_other(p, "deinterleave", GROUP, p->desc.edge, &p->deinterleave);
     if (status == CRV_OK && p->desc.level_px > 0)
@@ -188,7 +188,7 @@ void crv__program_destroy(crv__program *p)
     const crv__device *d = p->device;
     if (!d)
         return;
-    const VkPipeline pipelines[] = {p->depth.pipeline,     p->normals.pipeline,
+    const VkPipeline pipelines[] = {p->convert.pipeline,   p->depth.pipeline,
                                     p->estimate.pipeline,  p->filter[0].pipeline,
                                     p->filter[1].pipeline, p->deinterleave.pipeline,
                                     p->prefilter.pipeline};

@@ -26,7 +26,9 @@ typedef struct crv__program_desc {
 
 typedef struct crv__program {
     const crv__device *device;
-    crv__pipeline depth, normals; /* only where the host's images are converted */
+    /* Only where the host's images are converted: the first layer with the normals, the
+     * other layers. */
+    crv__pipeline convert, depth;
     crv__pipeline deinterleave, prefilter; /* only where the desc says so */
     crv__pipeline estimate, filter[CRV__MOST_PASSES];
     crv__program_desc desc;

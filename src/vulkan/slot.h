@@ -16,10 +16,10 @@ typedef struct crv__slot {
     crv__image depth, normals, accessibility[2];
     crv__image apart; /* depth taken apart, where the program says so */
     VkDescriptorPool pool;
-    /* Converts; the estimate, into accessibility[0]; filter passes, to and fro. */
-    VkDescriptorSet depth_set[CRV_MAX_LAYERS], normals_set, estimate_set,
-        filter_set[CRV__MOST_PASSES], apart_set,
-        level_set[CRV_MAX_LAYERS][CRV__MOST_LEVELS];
+    /* Converts, the first layer with the normals; the estimate, into accessibility[0];
+     * filter passes, to and fro. */
+    VkDescriptorSet depth_set[CRV_MAX_LAYERS], estimate_set, filter_set[CRV__MOST_PASSES],
+        apart_set, level_set[CRV_MAX_LAYERS][CRV__MOST_LEVELS];
     VkQueryPool queries; /* VK_NULL_HANDLE: none */
     int32_t query_count;
 } crv__slot;

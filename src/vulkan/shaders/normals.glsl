@@ -4,6 +4,7 @@
 #ifndef NORMALS_GLSL
 #define NORMALS_GLSL
 
+#include "depth.glsl"
 #include "frame.glsl"
 
 /* crv_vulkan_normals (crevice/vulkan.h) */
@@ -51,7 +52,7 @@ vec3 edge_along(ivec2 at, ivec2 step, float d)
         const ivec2 neighbour = at + side * step;
         if (!in_buffers(neighbour))
             continue;
-        const float depth = depth_at(neighbour, 0);
+        const float depth = planar_depth(neighbour);
         const float difference = abs(depth - d);
         if (is_surface(depth) && difference < best) {
             best = difference;
@@ -95,7 +96,7 @@ vec3 final_normal(ivec2 at, float d)
 {
     vec3 n = vec3(0);
     if (push.normal_encoding != NORMAL_NONE)
-        n = normalized(decoded_normal(texelFetch(host_image, at, 0)));
+        n = normalized(decoded_normal(texelFetch(host_normals, at, 0)));
     if (n == vec3(0))
         n = normal_from_depth(at, d);
     return facing_camera(at, d, n);
