@@ -18,6 +18,15 @@ VkDescriptorType crv__binding_type(uint32_t binding)
                : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
 }
 
+void crv__specs_clear(int32_t specs[CRV__SPECS], int32_t group)
+{
+    for (int i = 0; i < CRV__SPECS; i++)
+        specs[i] = -1;
+    specs[CRV__SPEC_SIZE_X] = specs[CRV__SPEC_SIZE_Y] = group;
+    specs[CRV__SPEC_INTERLEAVE] = specs[CRV__SPEC_DEPTH_EDGE] = 1;
+    specs[CRV__SPEC_NORMALS_OCTAHEDRAL] = specs[CRV__SPEC_LOD_PX] = 0;
+}
+
 static VkResult create_layouts(const crv__device *d, crv__pipelines *p)
 {
     VkDescriptorSetLayoutBinding bindings[CRV__BINDINGS];

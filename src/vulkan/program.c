@@ -7,8 +7,7 @@
 /* Offsets of storage buffers: every device takes a multiple of this. */
 enum { OFFSET_ALIGNMENT = 256 };
 
-/* How often the loops of a pixel's estimate turn, at most. */
-static double loop_rounds(const crv__setup *setup)
+double crv__setup_samples(const crv__setup *setup)
 {
     const crv_options *o = &setup->options;
     const int has_points = setup->pattern || setup->method->pattern_fill;
@@ -19,7 +18,23 @@ static double loop_rounds(const crv__setup *setup)
     double rounds = has_points ? o->samples : o->directions;
     if (has_steps)
         rounds *= (double)o->steps * (has_rays ? 1 + o->normal_rays : 1);
-    return setup->desc.layers > 1 ? rounds * (1 + setup->desc.layers) : rounds;
+    return rounds;
+}
+
+/* How often the loops of a pixel's estimate turn, at most. */
+static double loop_rounds(const crv__setup *setup)
+{
+    const double samples = crv__setup_samples(setup);
+    return setup->desc.layers > 1 ? samples * (1 + setup->desc.layers) : samples;
+}
+
+int32_t crv__apart_edge(const crv__device *d, const crv__setup *setup)
+{
+    const int32_t edge = setup->options.noise_size;
+    const uint32_t layers = (uint32_t)(edge * edge * setup->desc.layers);
+    const int fits =
+        edge >= 2 && edge <= 8 && layers <= d->properties.limits.maxImageArrayLayers;
+    return fits ? edge : 1;
 }
 
 crv_status crv__setup_check(const crv__device *d, const crv__setup *setup)
@@ -40,16 +55,11 @@ crv_status crv__setup_check(const crv__device *d, const crv__setup *setup)
     return CRV_OK;
 }
 
-/* All that a shader may have fixed; -1: read from the buffers. */
 static void clear_specs(crv__pipeline *pipeline, int32_t group, int32_t specs[CRV__SPECS])
 {
     *pipeline =
         (crv__pipeline){.group = group, .lanes_x = 1, .lanes_y = 1, .interleave = 1};
-    for (int i = 0; i < CRV__SPECS; i++)
-        specs[i] = -1;
-    specs[CRV__SPEC_SIZE_X] = specs[CRV__SPEC_SIZE_Y] = group;
-    specs[CRV__SPEC_INTERLEAVE] = specs[CRV__SPEC_DEPTH_EDGE] = 1;
-    specs[CRV__SPEC_NORMALS_OCTAHEDRAL] = specs[CRV__SPEC_LOD_PX] = 0;
+    crv__specs_clear(specs, group);
 }
 
 static crv_status take_estimate(crv__program *p, const crv__setup *setup, int32_t group)
@@ -122,6 +132,16 @@ static crv_status take_other(crv__program *p, const char *shader, int32_t group,
 static int32_t filter_group(const crv__device *d)
 {
     return d->properties.limits.maxComputeWorkGroupInvocations >= 256 ? 16 : 8;
+}
+
+double crv__filter_fetches(const crv__program *p, const crv__setup *setup)
+{
+    const double group = filter_group(p->device);
+    const char *name = setup->filter->info.name;
+    if (p->passes == 2)
+        return 3 * (group + 12) / group; /* bilateral13: six more on either side */
+    const double window = strcmp(name, "box4") == 0 ? 3 : 4;
+    return 3 * (group + window) * (group + window) / (group * group);
 }
 
 static crv_status take_pipelines(crv__program *p, const crv__setup *setup)

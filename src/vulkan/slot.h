@@ -66,6 +66,16 @@ void crv__slot_record_step(crv__slot *s, VkCommandBuffer commands,
                            const crv__pipeline *pipeline, VkDescriptorSet set,
                            const crv__push *push);
 
+/* What the next dispatch writes. */
+void crv__push_out(crv__push *push, crv__rectangle r);
+
+/* What was written is read next, and images that were read are written. */
+void crv__record_between(const crv__device *d, VkCommandBuffer commands);
+
+/* Other layouts of depth, where the program has any: each a step with its time. None
+ * waits for another. */
+void crv__slot_record_layouts(crv__slot *s, VkCommandBuffer commands, crv__push *push);
+
 /* Milliseconds of the steps whose times were noted since the beginning; NOT_READY while
  * they are executed. */
 crv_status crv__slot_times(const crv__slot *s, double times_ms[CRV__MOST_STEPS]);
