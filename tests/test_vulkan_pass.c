@@ -298,6 +298,7 @@ static crv_vulkan_pass_desc pass_desc(const encoding *e)
     desc.normal_space = e->space;
     desc.normal_format = e->normal_format;
     desc.result_format = e->result_format;
+    desc.half_filters = CRV_VULKAN_HALF_ON; /* also on lavapipe */
     return desc;
 }
 
@@ -613,6 +614,7 @@ static void bad_passes_are_refused_with_one_line(void **state)
     REFUSED(UNSUPPORTED, d.depth_format = VK_FORMAT_R64_SFLOAT);
     REFUSED(UNSUPPORTED, d.normal_format = VK_FORMAT_R64G64_SFLOAT);
     REFUSED(UNSUPPORTED, d.result_format = VK_FORMAT_D32_SFLOAT);
+    REFUSED(INVALID_ARGUMENT, d.half_filters = (crv_vulkan_half)3);
 #undef REFUSED
     d = pass_desc(e);
     assert_refused(&log, crv_vulkan_pass_create(context, &options, &size, NULL, &pass),

@@ -96,6 +96,16 @@ typedef enum crv_vulkan_normals {
     CRV_VULKAN_NORMALS_OCT_HALVED = 4  /* octahedral * 0.5 + 0.5: unsigned formats */
 } crv_vulkan_normals;
 
+/* Whether the filters bilateral13 and gauss5 compute in half floats, two pixels at a
+ * time: within 2e-3 of the other picture. Depth stays in 32 bits. Only where the device
+ * has shaderFloat16 and filter_normal is 10 to 90 or 180 degrees. */
+typedef enum crv_vulkan_half {
+    CRV_VULKAN_HALF_AUTO =
+        0, /* but on devices that are CPUs: half floats are slower there */
+    CRV_VULKAN_HALF_OFF = 1,
+    CRV_VULKAN_HALF_ON = 2
+} crv_vulkan_half;
+
 #define CRV_VULKAN_MAX_FRAMES 8
 
 /* What a pass is made for. Fill it with crv_vulkan_pass_desc_init(). */
@@ -120,10 +130,7 @@ typedef struct crv_vulkan_pass_desc {
      * estimate, as near to the truth, but not the picture of the CPU. Default 0: off;
      * not together with deinterleave. */
     int32_t level_px;
-    /* bilateral13 and gauss5 compute in half floats, two pixels at a time, where the
-     * device has shaderFloat16 and filter_normal is 10 to 90 or 180 degrees; depth stays
-     * in 32 bits. Within 2e-3 of the other picture. Default on. */
-    VkBool32 half_filters;
+    crv_vulkan_half half_filters; /* default AUTO */
 } crv_vulkan_pass_desc;
 
 /* Sets the defaults. Pass sizeof *desc as struct_size. Thread-safe. */

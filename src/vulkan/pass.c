@@ -26,8 +26,7 @@ void crv_vulkan_pass_desc_init(crv_vulkan_pass_desc *desc, size_t struct_size)
     *desc = (crv_vulkan_pass_desc){.struct_size = struct_size,
                                    .frames = 2,
                                    .depth_format = VK_FORMAT_D32_SFLOAT,
-                                   .result_format = VK_FORMAT_R8_UNORM,
-                                   .half_filters = VK_TRUE};
+                                   .result_format = VK_FORMAT_R8_UNORM};
 }
 
 static crv_status check_desc(const crv_logger *logger, const crv_vulkan_pass_desc *desc)
@@ -52,6 +51,11 @@ static crv_status check_desc(const crv_logger *logger, const crv_vulkan_pass_des
     if (desc->level_px < 0)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "pass: level_px is %d; 0 or more", desc->level_px);
+    if (desc->half_filters < CRV_VULKAN_HALF_AUTO
+        || desc->half_filters > CRV_VULKAN_HALF_ON)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "pass: half_filters is %d; use one of crv_vulkan_half",
+                         (int)desc->half_filters);
     return CRV_OK;
 }
 
@@ -94,6 +98,13 @@ static VkFormat preferred(const crv__device *d, VkFormat small, VkFormat sure)
 
 /* ---- life ---- */
 
+static int wants_half(const crv__device *d, crv_vulkan_half half)
+{
+    return half == CRV_VULKAN_HALF_ON
+           || (half == CRV_VULKAN_HALF_AUTO
+               && d->properties.deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU);
+}
+
 static crv_status create_parts(crv_vulkan_pass *p)
 {
     const crv__device *d = p->device;
@@ -104,7 +115,7 @@ static crv_status create_parts(crv_vulkan_pass *p)
         .timestamps = p->desc.timestamps && d->timestamp_bits > 0};
     const crv__program_desc program = {
         .converts = 1,
-        .half = p->desc.half_filters != VK_FALSE,
+        .half = wants_half(d, p->desc.half_filters),
         .edge = p->desc.deinterleave ? crv__apart_edge(d, &p->setup) : 1,
         .level_px = p->desc.deinterleave ? 0 : p->desc.level_px};
     if (crv__setup_patterns(&p->setup))

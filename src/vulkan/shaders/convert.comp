@@ -12,9 +12,10 @@
 void main()
 {
     const ivec2 at = pixel_of_invocation();
+    take_tile();
     if (!in_output(at))
         return;
-    const float d = planar_depth(at);
+    const float d = depth_in_tile(at);
     const vec3 n = is_surface(d) ? final_normal(at, d) : vec3(0);
     write_output(at, vec4(d));
     imageStore(normal_output, at,
