@@ -4,6 +4,7 @@
  * options, through the public interface.
  *
  *   test_vulkan_agreement [--seed N] [--test NAME] [--cases N] [--case N]
+ *                         [--half 1] [--layout N]
  *
  * What differs is printed with what repeats it. Exit code 77 where there is no device.
  */
@@ -28,6 +29,7 @@ typedef struct settings {
     uint64_t seed;
     const char *test; /* NULL: all */
     int32_t cases, only;
+    int32_t half, layout; /* as in crv_context_desc */
 } settings;
 
 static void print_errors(void *user, crv_log_level level, const char *line)
@@ -235,13 +237,17 @@ static int parse(int argc, char **argv, settings *s)
             s->cases = (int32_t)strtol(value, NULL, 0);
         else if (strcmp(argv[i], "--case") == 0)
             s->only = (int32_t)strtol(value, NULL, 0);
+        else if (strcmp(argv[i], "--half") == 0)
+            s->half = (int32_t)strtol(value, NULL, 0);
+        else if (strcmp(argv[i], "--layout") == 0)
+            s->layout = (int32_t)strtol(value, NULL, 0);
         else
             return 0;
     }
     return argc % 2;
 }
 
-static crv_status make_context(crv_device device, crv_context **out)
+static crv_status make_context(crv_device device, const settings *s, crv_context **out)
 {
     crv_context_desc desc;
     crv_context_desc_init(&desc, sizeof desc);
@@ -249,6 +255,8 @@ static crv_status make_context(crv_device device, crv_context **out)
     desc.isa_mask = 1u << CRV_ISA_SCALAR;
     desc.exact = 1;
     desc.device = device;
+    desc.half_filters = s->half;
+    desc.depth_layout = (crv_depth_layout)s->layout;
     return crv_context_create(&desc, out);
 }
 
@@ -258,14 +266,14 @@ int main(int argc, char **argv)
     devices d = {NULL, NULL};
     if (!parse(argc, argv, &s)) {
         fprintf(stderr, "usage: test_vulkan_agreement [--seed N] [--test NAME] "
-                        "[--cases N] [--case N]\n");
+                        "[--cases N] [--case N] [--half 1] [--layout N]\n");
         return 2;
     }
     printf("test_vulkan_agreement --seed %llu\n", (unsigned long long)s.seed);
-    const crv_status status = make_context(CRV_DEVICE_VULKAN, &d.vulkan);
+    const crv_status status = make_context(CRV_DEVICE_VULKAN, &s, &d.vulkan);
     if (status == CRV_ERROR_UNSUPPORTED && !getenv("CI"))
         return 77;
-    if (status || make_context(CRV_DEVICE_CPU, &d.cpu))
+    if (status || make_context(CRV_DEVICE_CPU, &s, &d.cpu))
         return 1;
     const int faults = check_all(&s, &d);
     crv_context_destroy(d.cpu);

@@ -336,6 +336,28 @@ static void every_piece_of_device_memory_may_fail(void **state)
     end_life(l);
 }
 
+/* Calls fail in turn until a path has been measured: the others do the same again. */
+static void measuring_fetches_may_fail(void **state)
+{
+    life *l = begin_life(*state);
+    double per_s[CRV_FETCH_PATHS][CRV_FETCH_PATTERNS] = {{0}};
+    driver.result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    for (driver.due = 1; per_s[0][0] <= 0; driver.due++) {
+        crv_context *context = NULL;
+        driver.calls = l->errors = 0;
+        crv_status status = crv_vulkan_context_create(&l->desc, &l->host, &context);
+        if (status == CRV_OK)
+            status = crv_context_device_fetches(context, per_s);
+        crv_context_destroy(context);
+        assert_int_equal(l->memory.held, 0);
+        assert_int_equal(status, CRV_ERROR_OUT_OF_MEMORY);
+        assert_int_equal(l->errors, 1);
+    }
+    assert_true(driver.due > 20); /* buffers, images, views, sets, runs */
+    driver.due = 0;
+    end_life(l);
+}
+
 /* ---- what is not a failure ---- */
 
 static void recording_allocates_nothing(void **state)
@@ -655,6 +677,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(the_device_may_be_lost_at_every_call),
         cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(every_piece_of_device_memory_may_fail),
+        cmocka_unit_test(measuring_fetches_may_fail),
         cmocka_unit_test(recording_allocates_nothing),
         cmocka_unit_test(the_callbacks_of_the_host_get_back_what_they_gave),
         cmocka_unit_test(every_allocation_of_the_callbacks_may_fail),

@@ -180,9 +180,9 @@ static void times_are_of_every_pass(void **state)
     assert_int_equal(log.errors, 0);
     engine_wait(g);
     assert_int_equal(status, CRV_OK);
-    assert_int_equal(count, 5); /* depth, normals, hbao, two passes of the filter */
-    assert_string_equal(times[0].name, "depth");
-    assert_string_equal(times[2].name, "hbao");
+    assert_int_equal(count, 4); /* depth and normals, hbao, two passes of the filter */
+    assert_string_equal(times[0].name, "depth and normals");
+    assert_string_equal(times[1].name, "hbao");
     double sum = 0;
     for (int32_t i = 0; i < count; i++) {
         assert_true(times[i].time_ms >= 0);
@@ -255,6 +255,7 @@ static void bad_passes_are_refused_with_one_line(void **state)
     REFUSED(UNSUPPORTED, d.depth_format = VK_FORMAT_R64_SFLOAT);
     REFUSED(UNSUPPORTED, d.normal_format = VK_FORMAT_R64G64_SFLOAT);
     REFUSED(UNSUPPORTED, d.result_format = VK_FORMAT_D32_SFLOAT);
+    REFUSED(INVALID_ARGUMENT, d.half_filters = (crv_vulkan_half)3);
 #undef REFUSED
     d = scene_pass_desc(e);
     assert_refused(&log, crv_vulkan_pass_create(context, &options, &size, NULL, &pass),

@@ -15,13 +15,17 @@ add_test(NAME test_vulkan_agreement COMMAND test_vulkan_agreement --seed 1
 # The label "once": what depends on shaders and driver more than on who compiled the C code,
 # and is run with one compiler (./check).
 
+# Other ways to the same picture: half floats, depth taken apart.
+add_test(NAME vulkan_half_apart COMMAND test_vulkan_agreement --seed 1 --half 1 --layout 1
+    --cases ${crevice_vulkan_cases})
+
 # The suites of the CPU, unchanged.
 foreach(suite conformance closed_forms filters)
     add_test(NAME vulkan_${suite} COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/on_vulkan.sh
         $<TARGET_FILE:test_vulkan_agreement> $<TARGET_FILE:test_${suite}>)
     list(APPEND crevice_vulkan_tests vulkan_${suite})
 endforeach()
-set_tests_properties(test_vulkan_agreement PROPERTIES
+set_tests_properties(test_vulkan_agreement vulkan_half_apart PROPERTIES
     LABELS vulkan TIMEOUT 600 SKIP_RETURN_CODE 77)
 set_tests_properties(${crevice_vulkan_tests} PROPERTIES
     LABELS "vulkan;once" TIMEOUT 600 SKIP_RETURN_CODE 77)
@@ -39,9 +43,9 @@ endfunction()
 set(enable VK_VALIDATION_FEATURE_ENABLE)
 vulkan_validated(synchronization
     "${enable}_SYNCHRONIZATION_VALIDATION_EXT:${enable}_BEST_PRACTICES_EXT"
-    $<TARGET_FILE:test_vulkan_agreement> --seed 1 --cases 5)
+    $<TARGET_FILE:test_vulkan_agreement> --seed 1 --cases 5 --half 1 --layout 1)
 vulkan_validated(gpu ${enable}_GPU_ASSISTED_EXT
-    $<TARGET_FILE:test_vulkan_agreement> --seed 1 --cases 1)
+    $<TARGET_FILE:test_vulkan_agreement> --seed 1 --cases 1 --half 1 --layout 1)
 
 # The example that is a renderer of its own, under the validation layer.
 if(TARGET example_vulkan_host)

@@ -41,6 +41,7 @@ crv_vulkan_host engine_host(const engine *e)
     device.queue = e->h.queue;
     device.has_synchronization2 = VK_TRUE;
     device.has_storage_image_write_without_format = VK_TRUE;
+    device.has_shader_float16 = e->h.has_float16;
     return device;
 }
 

@@ -219,6 +219,7 @@ crv_vulkan_pass_desc scene_pass_desc(const scene_encoding *e)
     desc.normal_space = e->space;
     desc.normal_format = e->normal_format;
     desc.result_format = e->result_format;
+    desc.half_filters = CRV_VULKAN_HALF_ON; /* also on lavapipe */
     return desc;
 }
 

@@ -69,6 +69,8 @@ typedef struct crv_vulkan_host {
     VkQueue queue;
     /* Whether the device was made with these features: a VkDevice cannot be asked. */
     VkBool32 has_synchronization2, has_storage_image_write_without_format;
+    /* Not needed: with shaderFloat16 filters can compute in half floats. */
+    VkBool32 has_shader_float16;
     const VkAllocationCallbacks *callbacks; /* NULL: Vulkan's own */
     crv_vulkan_memory memory;
 } crv_vulkan_host;
@@ -121,6 +123,16 @@ typedef enum crv_vulkan_normals {
  *   R16G16B16A16_UNORM, R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT.
  */
 
+/* Whether the filters bilateral13 and gauss5 compute in half floats, two pixels at a
+ * time: within 2e-3 of the other picture. Depth stays in 32 bits. Only where the device
+ * has shaderFloat16 and filter_normal is 10 to 90 or 180 degrees. */
+typedef enum crv_vulkan_half {
+    CRV_VULKAN_HALF_AUTO =
+        0, /* but on devices that are CPUs: half floats are slower there */
+    CRV_VULKAN_HALF_OFF = 1,
+    CRV_VULKAN_HALF_ON = 2
+} crv_vulkan_half;
+
 #define CRV_VULKAN_MAX_FRAMES 8
 
 /* What a pass is made for. Fill it with crv_vulkan_pass_desc_init(). */
@@ -145,6 +157,7 @@ typedef struct crv_vulkan_pass_desc {
      * estimate, as near to the truth, but not the picture of the CPU. Default 0: off;
      * not together with deinterleave. */
     int32_t level_px;
+    crv_vulkan_half half_filters; /* default AUTO */
 } crv_vulkan_pass_desc;
 
 /* Sets the defaults. Pass sizeof *desc as struct_size. Thread-safe. */
@@ -230,8 +243,9 @@ CRV_API crv_status crv_vulkan_pass_record(crv_vulkan_pass *pass, VkCommandBuffer
 
 /* The time that a step of a recording took on the device. */
 typedef struct crv_vulkan_time {
-    /* "depth" (one for each layer), "normals", "deinterleave", "levels", the method's
-     * name, and the filter's, or "filter, first pass" and "filter, second pass"; static.
+    /* "depth and normals", "depth" (each further layer), "deinterleave", "levels", the
+     * method's name, and the filter's, or "filter, first pass" and "filter, second pass";
+     * static.
      */
     const char *name;
     double time_ms;

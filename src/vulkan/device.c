@@ -80,6 +80,16 @@ static const char *lacking(const crv__device *d, VkPhysicalDevice physical)
     return compute_family(d, physical) == NO_FAMILY ? "it has no queue for compute" : "";
 }
 
+static int can_half(const crv__device *d)
+{
+    VkPhysicalDeviceVulkan12Features v12 = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceFeatures2 features = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &v12};
+    d->vk.GetPhysicalDeviceFeatures2(d->physical, &features);
+    return v12.shaderFloat16 != VK_FALSE;
+}
+
 static void look_up_properties(crv__device *d)
 {
     VkQueueFamilyProperties families[MOST_FAMILIES];
@@ -145,8 +155,13 @@ static crv_status open_device(crv__device *d)
                                            .queueFamilyIndex = d->family,
                                            .queueCount = 1,
                                            .pQueuePriorities = &priority};
+    d->has_half = can_half(d);
+    VkPhysicalDeviceVulkan12Features v12 = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
+        .shaderFloat16 = d->has_half ? VK_TRUE : VK_FALSE};
     VkPhysicalDeviceVulkan13Features v13 = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
+        .pNext = &v12,
         .synchronization2 = VK_TRUE};
     const VkPhysicalDeviceFeatures2 features = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
@@ -239,6 +254,7 @@ static crv_status open_host(crv__device *d, const crv_vulkan_host *host)
         return status;
     const char *why = lacking(d, d->physical);
     look_up_properties(d);
+    d->has_half = host->has_shader_float16 && can_half(d);
     if (why[0])
         return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
                          "vulkan: %s cannot be used: %s", d->properties.deviceName, why);

@@ -5,12 +5,6 @@
 
 /* ---- descriptors ---- */
 
-static VkDescriptorType type_of(uint32_t binding)
-{
-    return binding == CRV__BIND_OUTPUT ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
-                                       : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-}
-
 void crv__bind_image(const crv__program *p, VkDescriptorSet set, uint32_t binding,
                      VkImageView view, VkImageLayout layout)
 {
@@ -20,7 +14,7 @@ void crv__bind_image(const crv__program *p, VkDescriptorSet set, uint32_t bindin
                                         .dstSet = set,
                                         .dstBinding = binding,
                                         .descriptorCount = 1,
-                                        .descriptorType = type_of(binding),
+                                        .descriptorType = crv__binding_type(binding),
                                         .pImageInfo = &image};
     d->vk.UpdateDescriptorSets(d->device, 1, &write, 0, NULL);
 }
@@ -36,26 +30,28 @@ static void bind_all(crv__slot *s, VkDescriptorSet set, VkImageView input,
     buffers[CRV__BIND_PARAMS] =
         (VkDescriptorBufferInfo){s->params.buffer, 0, sizeof(crv__params)};
     for (uint32_t i = 0; i < CRV__BIND_DEPTH; i++)
-        writes[i] = (VkWriteDescriptorSet){
-            .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-            .dstSet = set,
-            .dstBinding = i,
-            .descriptorCount = 1,
-            .descriptorType = i == CRV__BIND_PARAMS ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
-                                                    : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-            .pBufferInfo = &buffers[i]};
+        writes[i] =
+            (VkWriteDescriptorSet){.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                   .dstSet = set,
+                                   .dstBinding = i,
+                                   .descriptorCount = 1,
+                                   .descriptorType = crv__binding_type(i),
+                                   .pBufferInfo = &buffers[i]};
     d->vk.UpdateDescriptorSets(d->device, CRV__BIND_DEPTH, writes, 0, NULL);
     const VkImageView views[CRV__BINDINGS] = {[CRV__BIND_DEPTH] = s->depth.view,
                                               [CRV__BIND_NORMALS] = s->normals.view,
                                               [CRV__BIND_INPUT] = input,
                                               [CRV__BIND_OUTPUT] = output,
-                                              [CRV__BIND_HOST] = s->normals.view};
+                                              [CRV__BIND_HOST_DEPTH] = s->normals.view,
+                                              [CRV__BIND_HOST_NORMALS] = s->normals.view,
+                                              [CRV__BIND_NORMALS_OUTPUT] =
+                                                  s->normals.view};
     for (uint32_t i = CRV__BIND_DEPTH; i < CRV__BINDINGS; i++)
         crv__bind_image(s->program, set, i, views[i], VK_IMAGE_LAYOUT_GENERAL);
 }
 
 enum {
-    PARTS_FROM = CRV_MAX_LAYERS + 3 + CRV__MOST_PASSES,
+    PARTS_FROM = CRV_MAX_LAYERS + 2 + CRV__MOST_PASSES,
     LEVELS_FROM = PARTS_FROM + 2,
     SETS = LEVELS_FROM + CRV_MAX_LAYERS * CRV__MOST_LEVELS
 };
@@ -66,8 +62,8 @@ static VkResult create_sets(crv__slot *s)
     const VkDescriptorPoolSize sizes[] = {
         {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, SETS},
         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, SETS * 3},
-        {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, SETS},
-        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, SETS * 4}};
+        {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, SETS * 2},
+        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, SETS * 5}};
     const VkDescriptorPoolCreateInfo pool = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
         .maxSets = SETS,
@@ -90,10 +86,9 @@ static VkResult create_sets(crv__slot *s)
     if (result)
         return result;
     memcpy(s->depth_set, sets, sizeof s->depth_set);
-    s->normals_set = sets[CRV_MAX_LAYERS];
-    s->estimate_set = sets[CRV_MAX_LAYERS + 1];
-    s->apart_set = sets[CRV_MAX_LAYERS + 2];
-    memcpy(s->filter_set, sets + CRV_MAX_LAYERS + 3, sizeof s->filter_set);
+    s->estimate_set = sets[CRV_MAX_LAYERS];
+    s->apart_set = sets[CRV_MAX_LAYERS + 1];
+    memcpy(s->filter_set, sets + CRV_MAX_LAYERS + 2, sizeof s->filter_set);
     memcpy(s->part_set, sets + PARTS_FROM, sizeof s->part_set);
     memcpy(s->level_set, sets + LEVELS_FROM, sizeof s->level_set);
     return VK_SUCCESS;
@@ -127,7 +122,6 @@ static void bind_sets(crv__slot *s)
         for (int32_t m = 1; m < s->depth.desc.levels; m++)
             bind_all(s, s->level_set[i][m], first, s->depth.part[i][m]);
     }
-    bind_all(s, s->normals_set, first, s->normals.view);
     bind_estimate(s, first, second);
     bind_all(s, s->filter_set[0], first, second);
     bind_all(s, s->filter_set[1], second, first);
