@@ -153,6 +153,7 @@ static crv_status make_crevice(renderer *r)
     device.queue_family = r->h.family;
     device.has_synchronization2 = VK_TRUE;
     device.has_storage_image_write_without_format = VK_TRUE;
+    device.has_shader_float16 = r->h.has_float16;
     crv_status status = crv_vulkan_context_create(&context_desc, &device, &r->crevice);
     if (status)
         return status;

@@ -117,9 +117,19 @@ static int open_device(host *h)
                                            .queueFamilyIndex = h->family,
                                            .queueCount = 1,
                                            .pQueuePriorities = &priority};
-    /* Crevice needs synchronization2 and shaderStorageImageWriteWithoutFormat. */
+    /* Crevice needs synchronization2 and shaderStorageImageWriteWithoutFormat, and makes
+     * use of shaderFloat16. */
+    VkPhysicalDeviceVulkan12Features v12 = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceFeatures2 there = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &v12};
+    vkGetPhysicalDeviceFeatures2(h->physical, &there);
+    h->has_float16 = v12.shaderFloat16;
+    v12 = (VkPhysicalDeviceVulkan12Features){.sType = v12.sType,
+                                             .shaderFloat16 = h->has_float16};
     VkPhysicalDeviceVulkan13Features v13 = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
+        .pNext = &v12,
         .synchronization2 = VK_TRUE,
         .dynamicRendering = VK_TRUE};
     const VkPhysicalDeviceFeatures2 features = {

@@ -17,7 +17,8 @@ typedef struct host {
     VkDevice device;
     uint32_t family; /* graphics and compute */
     VkQueue queue;
-    int complaints; /* lines of the validation layer */
+    VkBool32 has_float16; /* shaderFloat16 is on */
+    int complaints;       /* lines of the validation layer */
 } host;
 
 /* validate: with the validation layer, its lines to stderr. 0; or -1 where there is no

@@ -64,6 +64,11 @@ typedef struct fixture_run {
 /* Whether frames are computed on a Vulkan device: CREVICE_TEST_DEVICE is "vulkan". */
 int fixture_on_vulkan(void);
 
+/* A context with the strict logger: a new one on the CPU, or the one of the process on
+ * the Vulkan device. */
+crv_context *fixture_context_open(void);
+void fixture_context_close(crv_context *context);
+
 /* Computes a frame and returns the result's pixels, which the caller frees. Any error
  * fails the test. */
 float *fixture_compute(const fixture *f, const crv_options *options,

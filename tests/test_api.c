@@ -295,6 +295,12 @@ static void nulls_are_refused(void **state)
     crv_context_desc_init(&half, sizeof half);
     half.threads = -1;
     assert_int_equal(crv_context_create(&half, &context), CRV_ERROR_INVALID_ARGUMENT);
+    crv_context_desc_init(&half, sizeof half);
+    half.half_filters = 2;
+    assert_int_equal(crv_context_create(&half, &context), CRV_ERROR_INVALID_ARGUMENT);
+    half.half_filters = 1;
+    half.depth_layout = (crv_depth_layout)3;
+    assert_int_equal(crv_context_create(&half, &context), CRV_ERROR_INVALID_ARGUMENT);
     assert_null(context);
     assert_int_equal(crv_context_create(NULL, &context), CRV_OK);
     double bandwidth = 0;
@@ -304,6 +310,12 @@ static void nulls_are_refused(void **state)
                      CRV_ERROR_INVALID_ARGUMENT);
     assert_int_equal(crv_context_device_bandwidth(context, &bandwidth),
                      CRV_ERROR_UNSUPPORTED); /* the CPU */
+    double fetches[CRV_FETCH_PATHS][CRV_FETCH_PATTERNS];
+    assert_int_equal(crv_context_device_fetches(NULL, fetches),
+                     CRV_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(crv_context_device_fetches(context, NULL),
+                     CRV_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(crv_context_device_fetches(context, fetches), CRV_ERROR_UNSUPPORTED);
     assert_int_equal(crv_gbuffer_create(NULL, &desc, &gbuffer),
                      CRV_ERROR_INVALID_ARGUMENT);
     assert_int_equal(crv_gbuffer_create(context, NULL, &gbuffer),

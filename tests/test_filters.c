@@ -12,9 +12,6 @@ static void apply_with(const char *filter, int32_t slope, float normal_deg,
                        const float *depth, const float *normals, const float *in,
                        float *out)
 {
-    crv_context_desc context_desc;
-    crv_context_desc_init(&context_desc, sizeof context_desc);
-    context_desc.logger = fixture_strict_logger();
     crv_gbuffer_desc desc;
     crv_gbuffer_desc_init(&desc, sizeof desc, SIZE, SIZE);
     crv_options options = fixture_options(NULL);
@@ -27,10 +24,9 @@ static void apply_with(const char *filter, int32_t slope, float normal_deg,
     crv_image depths = crv_image_packed((float *)(uintptr_t)depth, SIZE, SIZE, 1);
     crv_image input = crv_image_packed((float *)(uintptr_t)in, SIZE, SIZE, 1);
     crv_image result = crv_image_packed(out, SIZE, SIZE, 1);
-    crv_context *context = NULL;
+    crv_context *context = fixture_context_open();
     crv_gbuffer *gbuffer = NULL;
     crv_plan *plan = NULL;
-    assert_int_equal(crv_context_create(&context_desc, &context), CRV_OK);
     assert_int_equal(crv_gbuffer_create(context, &desc, &gbuffer), CRV_OK);
     assert_int_equal(crv_plan_create(context, &options, &desc, &plan), CRV_OK);
     assert_int_equal(crv_gbuffer_set_camera(gbuffer, &camera), CRV_OK);
@@ -42,7 +38,7 @@ static void apply_with(const char *filter, int32_t slope, float normal_deg,
     assert_int_equal(crv_plan_filter(plan, gbuffer, &input, &result), CRV_OK);
     crv_plan_destroy(plan);
     crv_gbuffer_destroy(gbuffer);
-    crv_context_destroy(context);
+    fixture_context_close(context);
 }
 
 static void apply(const char *filter, int32_t slope, const float *depth, const float *in,

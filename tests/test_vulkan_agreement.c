@@ -4,6 +4,7 @@
  * options, through the public interface.
  *
  *   test_vulkan_agreement [--seed N] [--test NAME] [--cases N] [--case N]
+ *                         [--half 1] [--layout N]
  *
  * What differs is printed with what repeats it. Exit code 77 where there is no device.
  */
@@ -28,6 +29,7 @@ typedef struct settings {
     uint64_t seed;
     const char *test; /* NULL: all */
     int32_t cases, only;
+    int32_t half, layout; /* as in crv_context_desc */
 } settings;
 
 static void print_errors(void *user, crv_log_level level, const char *line)
@@ -145,6 +147,14 @@ static uint64_t stream_of(const char *name)
     return hash;
 }
 
+static int report(const char *test, const tally *t)
+{
+    const int failed = (double)t->over > fmax(1, SHARE * (double)t->pixels);
+    printf("%-12s %8d px, %d over %g, largest difference %.2g%s\n", test, (int)t->pixels,
+           (int)t->over, TOLERANCE, t->largest, failed ? "  FAILED" : "");
+    return failed;
+}
+
 /* Cases of one method, or of one filter alone. Returns the number of faults. */
 static int check(const settings *s, const devices *d, const char *test,
                  const crv_method *method, const crv_filter *filter)
@@ -165,15 +175,41 @@ static int check(const settings *s, const devices *d, const char *test,
         faults += c ? check_case(d, test, i, c, &t) : 1;
         simd_case_free(c);
     }
-    const int failed = (double)t.over > fmax(1, SHARE * (double)t.pixels);
-    printf("%-12s %8d px, %d over %g, largest difference %.2g%s\n", test, (int)t.pixels,
-           (int)t.over, TOLERANCE, t.largest, failed ? "  FAILED" : "");
-    return faults + failed;
+    return faults + report(test, &t);
+}
+
+/* So many samples that an estimate takes several dispatches, which hand on their sums.
+ * Returns the number of faults. */
+static int check_many(const settings *s, const devices *d)
+{
+    enum { FEW_PIXELS = 24 }; /* a side, at most */
+    tally t = {0};
+    int faults = 0;
+    for (int32_t i = 0; s->cases > 0 && i < crv_method_count(); i++) {
+        const crv_method *method = crv_method_at(i);
+        simd_random r = simd_random_make(s->seed, stream_of("many"), (uint64_t)i);
+        simd_case *c = simd_case_make(&r, method, NULL, 0, FEW_PIXELS, SIMD_SMOOTH);
+        if (c) {
+            c->options.directions = simd_int(&r, 200, 256);
+            c->options.steps = simd_int(&r, 220, 256);
+            c->options.normal_rays = simd_int(&r, 2, 8);
+            c->options.samples = simd_int(&r, 3000, 4096);
+        }
+        faults += c ? check_case(d, "many", i, c, &t) : 1;
+        simd_case_free(c);
+    }
+    return faults + report("many", &t);
 }
 
 static int check_all(const settings *s, const devices *d)
 {
     int faults = 0, tests = 0;
+    /* A single case each is for the layer that instruments shaders: that takes minutes
+     * for so many samples. */
+    if (s->test ? strcmp(s->test, "many") == 0 : s->cases > 1) {
+        faults += check_many(s, d);
+        tests++;
+    }
     for (int32_t i = 0; i < crv_method_count() + crv_filter_count(); i++) {
         const int32_t k = i - crv_method_count();
         const crv_filter *filter = k >= 0 ? crv_filter_at(k) : NULL;
@@ -201,13 +237,17 @@ static int parse(int argc, char **argv, settings *s)
             s->cases = (int32_t)strtol(value, NULL, 0);
         else if (strcmp(argv[i], "--case") == 0)
             s->only = (int32_t)strtol(value, NULL, 0);
+        else if (strcmp(argv[i], "--half") == 0)
+            s->half = (int32_t)strtol(value, NULL, 0);
+        else if (strcmp(argv[i], "--layout") == 0)
+            s->layout = (int32_t)strtol(value, NULL, 0);
         else
             return 0;
     }
     return argc % 2;
 }
 
-static crv_status make_context(crv_device device, crv_context **out)
+static crv_status make_context(crv_device device, const settings *s, crv_context **out)
 {
     crv_context_desc desc;
     crv_context_desc_init(&desc, sizeof desc);
@@ -215,6 +255,8 @@ static crv_status make_context(crv_device device, crv_context **out)
     desc.isa_mask = 1u << CRV_ISA_SCALAR;
     desc.exact = 1;
     desc.device = device;
+    desc.half_filters = s->half;
+    desc.depth_layout = (crv_depth_layout)s->layout;
     return crv_context_create(&desc, out);
 }
 
@@ -224,14 +266,14 @@ int main(int argc, char **argv)
     devices d = {NULL, NULL};
     if (!parse(argc, argv, &s)) {
         fprintf(stderr, "usage: test_vulkan_agreement [--seed N] [--test NAME] "
-                        "[--cases N] [--case N]\n");
+                        "[--cases N] [--case N] [--half 1] [--layout N]\n");
         return 2;
     }
     printf("test_vulkan_agreement --seed %llu\n", (unsigned long long)s.seed);
-    const crv_status status = make_context(CRV_DEVICE_VULKAN, &d.vulkan);
+    const crv_status status = make_context(CRV_DEVICE_VULKAN, &s, &d.vulkan);
     if (status == CRV_ERROR_UNSUPPORTED && !getenv("CI"))
         return 77;
-    if (status || make_context(CRV_DEVICE_CPU, &d.cpu))
+    if (status || make_context(CRV_DEVICE_CPU, &s, &d.cpu))
         return 1;
     const int faults = check_all(&s, &d);
     crv_context_destroy(d.cpu);

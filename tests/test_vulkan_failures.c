@@ -5,148 +5,18 @@
  * and one line has to say what happened. The driver's calls fail in a table of functions
  * that this host gives instead of the loader's, so that no driver has to play along.
  */
+#define _GNU_SOURCE /* dladdr() */
 #include "fixture.h"
 
-#include <math.h>
+#include <dlfcn.h>
+#include <execinfo.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "vulkan_driver.h"
 #include "vulkan_engine.h"
-
-/* ---- calls of the driver ---- */
-
-/* A function of Vulkan knows of no user pointer. */
-static struct {
-    int calls; /* so far */
-    int due;   /* the call that fails, from 1; 0: none */
-    VkResult result;
-} driver;
-
-static int is_due(void)
-{
-    driver.calls++;
-    return driver.calls == driver.due;
-}
-
-#define CREATES(F)                                                                       \
-    F(CreateBuffer, VkBufferCreateInfo, VkBuffer)                                        \
-    F(CreateImage, VkImageCreateInfo, VkImage)                                           \
-    F(CreateImageView, VkImageViewCreateInfo, VkImageView)                               \
-    F(CreateSampler, VkSamplerCreateInfo, VkSampler)                                     \
-    F(CreateDescriptorSetLayout, VkDescriptorSetLayoutCreateInfo, VkDescriptorSetLayout) \
-    F(CreateDescriptorPool, VkDescriptorPoolCreateInfo, VkDescriptorPool)                \
-    F(CreatePipelineLayout, VkPipelineLayoutCreateInfo, VkPipelineLayout)                \
-    F(CreateShaderModule, VkShaderModuleCreateInfo, VkShaderModule)                      \
-    F(CreateCommandPool, VkCommandPoolCreateInfo, VkCommandPool)                         \
-    F(CreateFence, VkFenceCreateInfo, VkFence)                                           \
-    F(CreateQueryPool, VkQueryPoolCreateInfo, VkQueryPool)                               \
-    F(AllocateMemory, VkMemoryAllocateInfo, VkDeviceMemory)
-
-#define DEFINE(name, info_type, handle_type)                                             \
-    static VKAPI_ATTR VkResult VKAPI_CALL fail_##name(                                   \
-        VkDevice device, const info_type *info, const VkAllocationCallbacks *callbacks,  \
-        handle_type *out)                                                                \
-    {                                                                                    \
-        return is_due() ? driver.result : vk##name(device, info, callbacks, out);        \
-    }
-CREATES(DEFINE)
-#undef DEFINE
-
-/* The others: parameters, and the same as arguments. */
-#define OTHERS(F)                                                                        \
-    F(AllocateDescriptorSets,                                                            \
-      (VkDevice d, const VkDescriptorSetAllocateInfo *i, VkDescriptorSet *out),          \
-      (d, i, out))                                                                       \
-    F(AllocateCommandBuffers,                                                            \
-      (VkDevice d, const VkCommandBufferAllocateInfo *i, VkCommandBuffer *out),          \
-      (d, i, out))                                                                       \
-    F(BindBufferMemory, (VkDevice d, VkBuffer b, VkDeviceMemory m, VkDeviceSize o),      \
-      (d, b, m, o))                                                                      \
-    F(BindImageMemory, (VkDevice d, VkImage b, VkDeviceMemory m, VkDeviceSize o),        \
-      (d, b, m, o))                                                                      \
-    F(MapMemory,                                                                         \
-      (VkDevice d, VkDeviceMemory m, VkDeviceSize o, VkDeviceSize s, VkMemoryMapFlags f, \
-       void **out),                                                                      \
-      (d, m, o, s, f, out))                                                              \
-    F(ResetCommandPool, (VkDevice d, VkCommandPool p, VkCommandPoolResetFlags f),        \
-      (d, p, f))                                                                         \
-    F(BeginCommandBuffer, (VkCommandBuffer c, const VkCommandBufferBeginInfo *i),        \
-      (c, i))                                                                            \
-    F(QueueSubmit2, (VkQueue q, uint32_t n, const VkSubmitInfo2 *s, VkFence f),          \
-      (q, n, s, f))
-
-#define DEFINE(name, parameters, arguments)                                              \
-    static VKAPI_ATTR VkResult VKAPI_CALL fail_##name parameters                         \
-    {                                                                                    \
-        return is_due() ? driver.result : vk##name arguments;                            \
-    }
-OTHERS(DEFINE)
-#undef DEFINE
-
-/* These do their work and then say that it failed: commands that are half recorded and
- * fences that are not waited for would be the test's own fault. */
-#define AFTERWARDS(F)                                                                    \
-    F(EndCommandBuffer, (VkCommandBuffer c), (c))                                        \
-    F(WaitForFences, (VkDevice d, uint32_t n, const VkFence *f, VkBool32 a, uint64_t t), \
-      (d, n, f, a, t))                                                                   \
-    F(ResetFences, (VkDevice d, uint32_t n, const VkFence *f), (d, n, f))
-
-#define DEFINE(name, parameters, arguments)                                              \
-    static VKAPI_ATTR VkResult VKAPI_CALL fail_##name parameters                         \
-    {                                                                                    \
-        const VkResult result = vk##name arguments;                                      \
-        return is_due() ? driver.result : result;                                        \
-    }
-AFTERWARDS(DEFINE)
-#undef DEFINE
-
-/* With several pipelines, those that were made are to be given back. */
-static VKAPI_ATTR VkResult VKAPI_CALL
-fail_CreateComputePipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
-                            const VkComputePipelineCreateInfo *infos,
-                            const VkAllocationCallbacks *callbacks, VkPipeline *out)
-{
-    if (is_due()) {
-        memset(out, 0, count * sizeof *out);
-        return driver.result;
-    }
-    return vkCreateComputePipelines(device, cache, count, infos, callbacks, out);
-}
-
-typedef struct named {
-    const char *name;
-    PFN_vkVoidFunction function;
-} named;
-
-#define ROW(name, a, b) {"vk" #name, (PFN_vkVoidFunction)fail_##name},
-static const named FAILING[] = {CREATES(ROW) OTHERS(ROW) AFTERWARDS(ROW){
-    "vkCreateComputePipelines", (PFN_vkVoidFunction)fail_CreateComputePipelines}};
-#undef ROW
-
-static PFN_vkVoidFunction failing(const char *name)
-{
-    for (size_t i = 0; i < sizeof FAILING / sizeof *FAILING; i++) {
-        if (strcmp(FAILING[i].name, name) == 0)
-            return FAILING[i].function;
-    }
-    return NULL;
-}
-
-static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL device_function(VkDevice device,
-                                                                const char *name)
-{
-    const PFN_vkVoidFunction f = failing(name);
-    return f ? f : vkGetDeviceProcAddr(device, name);
-}
-
-static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instance_function(VkInstance instance,
-                                                                  const char *name)
-{
-    if (strcmp(name, "vkGetDeviceProcAddr") == 0)
-        return (PFN_vkVoidFunction)device_function;
-    const PFN_vkVoidFunction f = failing(name);
-    return f ? f : vkGetInstanceProcAddr(instance, name);
-}
 
 /* ---- memory of the host's and of the device's ---- */
 
@@ -266,6 +136,7 @@ typedef struct life {
     crv_context_desc desc;
     source memory;
     int errors; /* lines */
+    int without_bandwidth;
     host_image depth, result;
     float planes[2][PIXELS];
 } life;
@@ -283,6 +154,7 @@ static life *begin_life(engine *e)
     assert_non_null(l);
     l->engine = e;
     l->host = engine_host(e);
+    l->host.get_instance_proc_addr = vulkan_driver_get; /* it counts objects */
     crv_context_desc_init(&l->desc, sizeof l->desc);
     l->desc.logger = (crv_logger){.fn = count_line, .user = l};
     l->desc.allocator =
@@ -342,6 +214,8 @@ static crv_status run_plan(life *l, crv_context *context, const crv_options *opt
     const crv_camera camera = crv_camera_perspective(WIDTH, HEIGHT, 1);
     const crv_image depth = crv_image_packed(l->planes[0], WIDTH, HEIGHT, 1);
     const crv_image result = crv_image_packed(l->planes[1], WIDTH, HEIGHT, 1);
+    crv_device_time times[CRV_MAX_DEVICE_TIMES];
+    int32_t count = 0;
     crv_gbuffer *gbuffer = NULL;
     crv_plan *plan = NULL;
     crv_status status = crv_gbuffer_create(context, size, &gbuffer);
@@ -353,6 +227,8 @@ static crv_status run_plan(life *l, crv_context *context, const crv_options *opt
         status = crv_plan_create(context, options, size, &plan);
     if (status == CRV_OK)
         status = crv_plan_run(plan, gbuffer, &result);
+    if (status == CRV_OK)
+        status = crv_plan_device_times(plan, times, &count);
     crv_plan_destroy(plan);
     crv_gbuffer_destroy(gbuffer);
     return status;
@@ -367,6 +243,8 @@ static crv_status live(life *l)
     crv_gbuffer_desc_init(&size, sizeof size, WIDTH, HEIGHT);
     crv_context *context = NULL;
     crv_vulkan_pass *pass = NULL;
+    crv_vulkan_time times[CRV_VULKAN_MAX_TIMES];
+    int32_t count = 0;
     double bandwidth = 0;
     crv_status status = crv_vulkan_context_create(&l->desc, &l->host, &context);
     if (status == CRV_OK)
@@ -374,13 +252,16 @@ static crv_status live(life *l)
     if (status == CRV_OK)
         status = record(l, pass, 0);
     if (status == CRV_OK)
+        status = crv_vulkan_pass_times(pass, 0, times, &count);
+    if (status == CRV_OK)
         status = run_plan(l, context, &options, &size);
-    if (status == CRV_OK) /* last: it takes the longest */
+    if (status == CRV_OK && !l->without_bandwidth) /* last: it takes the longest */
         status = crv_context_device_bandwidth(context, &bandwidth);
-    assert_true(status != CRV_OK || bandwidth > 0);
+    assert_true(status != CRV_OK || bandwidth > 0 || l->without_bandwidth);
     crv_vulkan_pass_destroy(pass);
     crv_context_destroy(context);
     assert_int_equal(l->memory.held, 0);
+    assert_int_equal(driver.objects, 0);
     return status;
 }
 
@@ -406,23 +287,31 @@ static int live_until_done(life *l, int *due, int *calls, crv_status wanted)
     return -1;
 }
 
+static void calls_fail_with(engine *e, VkResult result, crv_status status,
+                            int with_bandwidth)
+{
+    life *l = begin_life(e);
+    l->without_bandwidth = !with_bandwidth;
+    driver.result = result;
+    /* Each of the functions is called at least once. */
+    assert_true(live_until_done(l, &driver.due, &driver.calls, status)
+                >= vulkan_driver_functions());
+    end_life(l);
+}
+
 static void every_call_of_the_driver_may_fail(void **state)
 {
-    static const struct {
-        VkResult result;
-        crv_status status;
-    } CASES[] = {{VK_ERROR_OUT_OF_DEVICE_MEMORY, CRV_ERROR_OUT_OF_MEMORY},
-                 {VK_ERROR_DEVICE_LOST, CRV_ERROR_DEVICE}};
-    life *l = begin_life(*state);
-    l->host.get_instance_proc_addr = instance_function;
-    for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
-        driver.result = CASES[i].result;
-        const int failures =
-            live_until_done(l, &driver.due, &driver.calls, CASES[i].status);
-        /* Each of the functions above is called at least once. */
-        assert_true(failures >= (int)(sizeof FAILING / sizeof *FAILING));
-    }
-    end_life(l);
+    calls_fail_with(*state, VK_ERROR_OUT_OF_DEVICE_MEMORY, CRV_ERROR_OUT_OF_MEMORY, 1);
+}
+
+/* The ways out are those of memory, which the layer has watched: here they are quick. */
+static void the_device_may_be_lost_at_every_call(void **state)
+{
+    engine plain;
+    (void)state;
+    assert_int_equal(engine_open(&plain, 0), 0);
+    calls_fail_with(&plain, VK_ERROR_DEVICE_LOST, CRV_ERROR_DEVICE, 0);
+    engine_close(&plain);
 }
 
 static void every_allocation_may_fail(void **state)
@@ -447,6 +336,28 @@ static void every_piece_of_device_memory_may_fail(void **state)
     end_life(l);
 }
 
+/* Calls fail in turn until a path has been measured: the others do the same again. */
+static void measuring_fetches_may_fail(void **state)
+{
+    life *l = begin_life(*state);
+    double per_s[CRV_FETCH_PATHS][CRV_FETCH_PATTERNS] = {{0}};
+    driver.result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    for (driver.due = 1; per_s[0][0] <= 0; driver.due++) {
+        crv_context *context = NULL;
+        driver.calls = l->errors = 0;
+        crv_status status = crv_vulkan_context_create(&l->desc, &l->host, &context);
+        if (status == CRV_OK)
+            status = crv_context_device_fetches(context, per_s);
+        crv_context_destroy(context);
+        assert_int_equal(l->memory.held, 0);
+        assert_int_equal(status, CRV_ERROR_OUT_OF_MEMORY);
+        assert_int_equal(l->errors, 1);
+    }
+    assert_true(driver.due > 20); /* buffers, images, views, sets, runs */
+    driver.due = 0;
+    end_life(l);
+}
+
 /* ---- what is not a failure ---- */
 
 static void recording_allocates_nothing(void **state)
@@ -460,7 +371,6 @@ static void recording_allocates_nothing(void **state)
     crv_context *context = NULL;
     crv_vulkan_pass *pass = NULL;
     l->host.memory = (crv_vulkan_memory){allocate_piece, release_piece, &blocks};
-    l->host.get_instance_proc_addr = instance_function;
     assert_int_equal(crv_vulkan_context_create(&l->desc, &l->host, &context), CRV_OK);
     assert_int_equal(crv_vulkan_pass_create(context, &options, &size, &desc, &pass),
                      CRV_OK);
@@ -479,15 +389,19 @@ static void recording_allocates_nothing(void **state)
  * old one. */
 enum { HEADER = 64 };
 
+static const char *failed_call; /* for which the last allocation that failed was */
+
 static VKAPI_ATTR void *VKAPI_CALL allocate_for_driver(void *user, size_t size,
                                                        size_t alignment,
                                                        VkSystemAllocationScope scope)
 {
     source *s = user;
+    const int fails = source_is_due(s);
     (void)scope;
-    s->calls++;
+    if (fails)
+        failed_call = driver.call;
     unsigned char *memory =
-        alignment <= HEADER
+        !fails && alignment <= HEADER
             ? aligned_alloc(HEADER, (size + 2 * HEADER - 1) / HEADER * HEADER)
             : NULL;
     if (!memory)
@@ -521,19 +435,151 @@ static VKAPI_ATTR void *VKAPI_CALL reallocate_for_driver(void *user, void *old,
     return memory;
 }
 
+static VkAllocationCallbacks callbacks_of(source *memory)
+{
+    return (VkAllocationCallbacks){.pUserData = memory,
+                                   .pfnAllocation = allocate_for_driver,
+                                   .pfnReallocation = reallocate_for_driver,
+                                   .pfnFree = free_of_driver};
+}
+
 static void the_callbacks_of_the_host_get_back_what_they_gave(void **state)
 {
     life *l = begin_life(*state);
     source memory = {0};
-    const VkAllocationCallbacks callbacks = {.pUserData = &memory,
-                                             .pfnAllocation = allocate_for_driver,
-                                             .pfnReallocation = reallocate_for_driver,
-                                             .pfnFree = free_of_driver};
+    const VkAllocationCallbacks callbacks = callbacks_of(&memory);
     l->host.callbacks = &callbacks;
     assert_int_equal(live(l), CRV_OK);
     assert_true(memory.calls > 0);
     assert_int_equal(memory.held, 0);
     end_life(l);
+}
+
+/*
+ * ---- callbacks that give nothing ----
+ *
+ * What the driver makes of it is its own: it may crash, and it may keep what it had taken
+ * for an object that it then did not make. Hence another process lives, and says before
+ * each life which allocation will fail; where it crashes inside the driver the next one
+ * goes on behind that. Everything else that goes wrong is Crevice's.
+ */
+
+static const char *this_program;
+static int first_due; /* of this process, where it is the other one */
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define SANITIZED 1
+#endif
+#endif
+
+/* Tells of the innermost object that is neither the C library nor this program, and of
+ * the call for which it had been refused memory and in which it still is. */
+static void tell_of_crash(int number)
+{
+    void *frames[64];
+    const int count = backtrace(frames, 64);
+    Dl_info here, info;
+    dladdr((void *)(uintptr_t)tell_of_crash, &here);
+    for (int i = 1; i < count; i++) {
+        if (!dladdr(frames[i], &info) || !info.dli_fname
+            || strcmp(info.dli_fname, here.dli_fname) == 0
+            || strstr(info.dli_fname, "/libc.so"))
+            continue;
+        printf("crash %s in %s\n", info.dli_fname,
+               driver.call && driver.call == failed_call ? driver.call : "another call");
+        break;
+    }
+    fflush(stdout);
+    _exit(128 + number);
+}
+
+static void lives_of_the_other_process(void **state)
+{
+    life *l = begin_life(*state);
+    source memory = {0};
+    const VkAllocationCallbacks callbacks = callbacks_of(&memory);
+    const int signals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGABRT};
+    crv_status status = CRV_ERROR_DEVICE;
+    l->host.callbacks = &callbacks;
+    l->without_bandwidth = 1; /* it only does more of the same */
+    for (size_t i = 0; i < sizeof signals / sizeof *signals; i++)
+        signal(signals[i], tell_of_crash);
+    for (int n = first_due; memory.calls >= memory.due; n++) {
+        printf("life %d\n", n);
+        fflush(stdout);
+        memory = (source){.due = n};
+        l->errors = 0;
+        status = live(l); /* it asserts that objects and our own memory are given back */
+        if (status == CRV_OK && memory.calls >= n) {
+            printf("unimpressed\n"); /* it did without */
+        } else if (status != CRV_OK && status != CRV_ERROR_OUT_OF_MEMORY
+                   && status != CRV_ERROR_DEVICE) {
+            fail_msg("allocation %d: status %d", n, (int)status);
+        }
+        if (l->errors != (status != CRV_OK))
+            fail_msg("allocation %d: %d lines", n, l->errors);
+        if (memory.held)
+            printf("kept\n"); /* by the driver: no object is left */
+    }
+    assert_int_equal(status, CRV_OK);
+    assert_int_equal(memory.held, 0);
+    printf("done\n");
+    end_life(l);
+}
+
+typedef struct verdict {
+    int life, crashes, kept, unimpressed, done, ours;
+    char told[4096]; /* lines about crashes of the driver, each once */
+} verdict;
+
+static void read_line(verdict *v, const char *line)
+{
+    if (sscanf(line, "life %d", &v->life) == 1)
+        return;
+    v->done += strcmp(line, "done\n") == 0;
+    v->kept += strcmp(line, "kept\n") == 0;
+    v->unimpressed += strcmp(line, "unimpressed\n") == 0;
+    if (strncmp(line, "crash ", 6) == 0) {
+        const int drivers = strstr(line, "vulkan_") && !strstr(line, "crevice")
+                            && !strstr(line, "another call");
+        v->crashes += drivers;
+        v->ours += !drivers;
+        if (!drivers || !strstr(v->told, line))
+            print_message("allocation %d: %s", v->life, line);
+        if (!strstr(v->told, line) && strlen(v->told) + strlen(line) < sizeof v->told)
+            strcat(v->told, line);
+    } else if (strncmp(line, "ERROR: ", 7) == 0) {
+        print_message("%s", line);
+    }
+}
+
+static void every_allocation_of_the_callbacks_may_fail(void **state)
+{
+    char command[512], line[512];
+    verdict v = {0};
+    (void)state;
+#ifdef SANITIZED
+    skip(); /* they catch signals themselves; other tests take the same ways out */
+#endif
+    for (int from = 1; !v.done; from = v.life + 1) {
+        const int crashes = v.crashes;
+        snprintf(command, sizeof command, "\"%s\" --lives-from %d 2>&1", this_program,
+                 from);
+        FILE *other = popen(command, "r");
+        assert_non_null(other);
+        while (fgets(line, sizeof line, other))
+            read_line(&v, line);
+        const int failed = pclose(other) != 0;
+        if (v.ours || failed != (v.crashes > crashes) || v.life < from)
+            fail_msg("allocation %d: it did not end well", v.life);
+    }
+    print_message("%d allocations: the driver crashed at %d, did without %d, and kept "
+                  "memory after %d\n",
+                  v.life - 1, v.crashes, v.unimpressed, v.kept);
+    assert_true(v.life > 10);
 }
 
 static void a_window_may_be_resized_for_ever(void **state)
@@ -612,17 +658,35 @@ static int open_all(void **state)
     return 0;
 }
 
-int main(void)
+/* test_vulkan_failures --lives-from N */
+static int live_here(const char *from)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lives_of_the_other_process)};
+    first_due = (int)strtol(from, NULL, 10);
+    if (engine_open(&the_engine, 0) != 0)
+        return 1;
+    const int failed = cmocka_run_group_tests(tests, open_all, NULL);
+    engine_close(&the_engine);
+    return failed;
+}
+
+int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_call_of_the_driver_may_fail),
+        cmocka_unit_test(the_device_may_be_lost_at_every_call),
         cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(every_piece_of_device_memory_may_fail),
+        cmocka_unit_test(measuring_fetches_may_fail),
         cmocka_unit_test(recording_allocates_nothing),
         cmocka_unit_test(the_callbacks_of_the_host_get_back_what_they_gave),
+        cmocka_unit_test(every_allocation_of_the_callbacks_may_fail),
         cmocka_unit_test(a_window_may_be_resized_for_ever),
         cmocka_unit_test(a_device_of_ones_own_may_fail),
     };
+    if (argc == 3 && strcmp(argv[1], "--lives-from") == 0)
+        return live_here(argv[2]);
+    this_program = argv[0];
     if (engine_open(&the_engine, 1) != 0) {
         printf("SKIPPED: no Vulkan 1.3 device, or no validation layer\n");
         return getenv("CI") ? 1 : 77;

@@ -11,6 +11,8 @@ listing = json.load(sys.stdin)
 assert "scalar" in listing["cpu"]
 for i, device in enumerate(listing["vulkan"]):
     assert device["device"] == "vulkan:%d" % i and device["name"], device
+    # A name and a version of the driver, and of Vulkan, that a person can look up.
+    assert "0x" not in device["driver"] and ", Vulkan 1." in device["driver"], device
 assert listing["vulkan"] or listing["vulkan_missing"].startswith("vulkan: ")
 ' <stdout.txt || fail "devices --json"
 fi
@@ -54,6 +56,34 @@ for row in report["device_steps"]:
     else:
         assert abs(share - row["gb_per_s"] * 1e9 / bandwidth) <= 1e-6 * share, row
 ' <bench.json || fail "shares of the bandwidth"
+# Every way to compute it has rows of its own, and the steps that only it has.
+good bench builtin:corner --device vulkan --sizes 64x36 --seconds 0 --repeats 1 \
+    --methods hbao --filters bilateral13 --layouts all --arithmetic both --json bench.json
+python3 -c 'import json, sys
+rows = json.load(sys.stdin)["device_steps"]
+extra = {"plain": [], "apart": ["deinterleave"], "levels": ["levels"]}
+for layout, steps in extra.items():
+    for arithmetic in ("single", "half"):
+        mine = [r for r in rows if (r["layout"], r["arithmetic"]) == (layout, arithmetic)]
+        wanted = ["upload"] + steps + ["hbao", "bilateral13", "bilateral13", "download"]
+        assert [r["step"] for r in mine] == wanted, mine
+        # hbao: 64 samples, own depth and normal; 28 texels for 16 px, of three images.
+        fetches = [r["fetches"] / (64 * 36) for r in mine if r["step"] in ("hbao", "bilateral13")]
+        assert fetches == [66, 5.25, 5.25], fetches
+' <bench.json || fail "ways to compute"
+good bench --device vulkan --only fetches --json bench.json
+python3 -c 'import json, sys
+rows = json.load(sys.stdin)["device_fetches"]
+assert len(rows) == 5, rows
+for row in rows:
+    for pattern in ("row", "near", "disk", "in_step"):
+        has = row["path"] != "shared memory" or pattern in ("row", "near")
+        assert (row[pattern] is not None) == has, row
+        assert not has or 1e5 < row[pattern] < 1e14, row
+' <bench.json || fail "fetches"
+bad 2 '--layouts: is for a GPU' bench --layouts apart
+bad 2 '--layouts: no "apar"; did you mean apart' bench --device vulkan --layouts apar
+bad 2 '--only fetches: ' bench --only fetches
 bad 2 '--isas: contradicts --device' bench --device vulkan --isas scalar
 
 good gbuffer builtin:sphere --size 64x36 -o passes.exr

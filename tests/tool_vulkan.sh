@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Every method on a Vulkan device against the scalar code, on large meshes where the folder of
-# scenes is at hand and on the built-in scene.
+# Every method, and every filter, on a Vulkan device against the scalar code, on large meshes
+# where the folder of scenes is at hand and on the built-in scene.
 command -v python3 >/dev/null || { echo "no python3; skipped"; exit 77; }
 . "$(dirname "$0")/tool_lib.sh"
 
@@ -27,18 +27,33 @@ print(f"{sys.argv[3]}: {beyond} of {len(a)} pixels beyond 2e-3")
 sys.exit(len(a) != len(b) or beyond > len(a) / 1000)
 END
 
-# agrees NAME RADIUS: all methods on NAME.exr
+methods="hbao hsao raymarch alchemy vo containment vao ssao"
+
+# agrees NAME RADIUS METHOD FILTER: one picture of NAME.exr
 agrees()
 {
-    for method in hbao hsao raymarch alchemy vo containment vao ssao; do
-        good ao "$1.exr" -o cpu.pfm --method $method --radius "$2" --isa scalar
-        good ao "$1.exr" -o vulkan.pfm --method $method --radius "$2" --device vulkan
-        python3 beyond.py cpu.pfm vulkan.pfm "$1, $method" || fail "$1, $method"
+    set -- "$1" "$2" --method "$3" --filter "$4"
+    good ao "$1.exr" -o cpu.pfm --radius "$2" "$3" "$4" "$5" "$6" --isa scalar
+    good ao "$1.exr" -o vulkan.pfm --radius "$2" "$3" "$4" "$5" "$6" --device vulkan
+    python3 beyond.py cpu.pfm vulkan.pfm "$1, $4, $6" || fail "$1, $4, $6"
+}
+
+# all_agree NAME RADIUS: every method with the default filter, and one with every filter
+all_agree()
+{
+    for method in $methods; do
+        agrees "$1" "$2" "$method" bilateral13
+    done
+    for filter in none box4 gauss5; do
+        agrees "$1" "$2" hbao $filter
     done
 }
 
 good gbuffer builtin:courtyard -o courtyard.exr --size 320x180
-agrees courtyard 1
+all_agree courtyard 1
+for method in $methods; do
+    agrees courtyard 1 "$method" none
+done
 
 scenes=${CREVICE_SHARED:-}/scenes
 [ -e "$scenes/cameras.json" ] || exit 0
@@ -51,5 +66,5 @@ for v in json.load(open(sys.argv[1]))["views"]:
 while read -r name file eye target up vfov radius; do
     good gbuffer "$scenes/$file" -o "$name.exr" --size 320x180 --eye "$eye" \
         --target "$target" --up "$up" --vfov "$vfov"
-    agrees "$name" "$radius"
+    all_agree "$name" "$radius"
 done <views.txt

@@ -4,7 +4,20 @@
 add_executable(test_vulkan_agreement test_vulkan_agreement.c simd_case.c)
 target_link_libraries(test_vulkan_agreement PRIVATE crevice::crevice crevice_flags m)
 # The seed is fixed, so that a change is judged by itself; by hand every run has another.
-add_test(NAME test_vulkan_agreement COMMAND test_vulkan_agreement --seed 1)
+# Sanitizers look at the C code, which is much the same in every case.
+set(crevice_vulkan_cases 20)
+if(CREVICE_SANITIZE)
+    set(crevice_vulkan_cases 2)
+endif()
+add_test(NAME test_vulkan_agreement COMMAND test_vulkan_agreement --seed 1
+    --cases ${crevice_vulkan_cases})
+
+# The label "once": what depends on shaders and driver more than on who compiled the C code,
+# and is run with one compiler (./check).
+
+# Other ways to the same picture: half floats, depth taken apart.
+add_test(NAME vulkan_half_apart COMMAND test_vulkan_agreement --seed 1 --half 1 --layout 1
+    --cases ${crevice_vulkan_cases})
 
 # The suites of the CPU, unchanged.
 foreach(suite conformance closed_forms filters)
@@ -12,25 +25,27 @@ foreach(suite conformance closed_forms filters)
         $<TARGET_FILE:test_vulkan_agreement> $<TARGET_FILE:test_${suite}>)
     list(APPEND crevice_vulkan_tests vulkan_${suite})
 endforeach()
-set_tests_properties(test_vulkan_agreement ${crevice_vulkan_tests} PROPERTIES
+set_tests_properties(test_vulkan_agreement vulkan_half_apart PROPERTIES
     LABELS vulkan TIMEOUT 600 SKIP_RETURN_CODE 77)
+set_tests_properties(${crevice_vulkan_tests} PROPERTIES
+    LABELS "vulkan;once" TIMEOUT 600 SKIP_RETURN_CODE 77)
 
-# Plans under the validation layer, with synchronisation and best practices, and once more
-# with the shaders instrumented.
-foreach(enabled
-        "SYNCHRONIZATION_VALIDATION_EXT:VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT"
-        GPU_ASSISTED_EXT)
-    string(REGEX REPLACE "_.*" "" name ${enabled})
-    string(TOLOWER vulkan_validation_${name} name)
-    set(cases 5)
-    if(enabled STREQUAL "GPU_ASSISTED_EXT")
-        set(cases 1) # instrumenting takes lavapipe seconds for each shader
-    endif()
-    add_test(NAME ${name} COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/validated.sh
-        VK_VALIDATION_FEATURE_ENABLE_${enabled} $<TARGET_FILE:test_vulkan_agreement>
-        --seed 1 --cases ${cases})
-    set_tests_properties(${name} PROPERTIES LABELS vulkan TIMEOUT 600 SKIP_RETURN_CODE 77)
-endforeach()
+# vulkan_validated(NAME FEATURES PROGRAM...): under the validation layer.
+function(vulkan_validated name features)
+    add_test(NAME vulkan_validation_${name} COMMAND sh
+        ${CMAKE_CURRENT_SOURCE_DIR}/validated.sh ${features} ${ARGN})
+    set_tests_properties(vulkan_validation_${name} PROPERTIES
+        LABELS "vulkan;once" TIMEOUT 600 SKIP_RETURN_CODE 77)
+endfunction()
+
+# Plans, with synchronisation and best practices; and with the shaders instrumented, each
+# method and filter once, since lavapipe takes seconds for each shader.
+set(enable VK_VALIDATION_FEATURE_ENABLE)
+vulkan_validated(synchronization
+    "${enable}_SYNCHRONIZATION_VALIDATION_EXT:${enable}_BEST_PRACTICES_EXT"
+    $<TARGET_FILE:test_vulkan_agreement> --seed 1 --cases 5 --half 1 --layout 1)
+vulkan_validated(gpu ${enable}_GPU_ASSISTED_EXT
+    $<TARGET_FILE:test_vulkan_agreement> --seed 1 --cases 1 --half 1 --layout 1)
 
 # The example that is a renderer of its own, under the validation layer.
 if(TARGET example_vulkan_host)
@@ -45,16 +60,19 @@ endif()
 # What renderers call, under the validation layer.
 find_package(Vulkan QUIET)
 if(Vulkan_FOUND)
-    foreach(test test_vulkan_pass test_vulkan_failures)
-        crevice_test(${test} SOURCES ${test}.c vulkan_engine.c
-                ${PROJECT_SOURCE_DIR}/examples/vulkan_host_setup.c
+    foreach(test test_vulkan_pass test_vulkan_formats test_vulkan_failures)
+        crevice_test(${test} SOURCES ${test}.c vulkan_driver.c vulkan_engine.c vulkan_scene.c
+                vulkan_texels.c ${PROJECT_SOURCE_DIR}/examples/vulkan_host_setup.c
             LIBS crevice_fixture Vulkan::Vulkan)
         set_tests_properties(${test} PROPERTIES
             LABELS vulkan TIMEOUT 600 SKIP_RETURN_CODE 77)
     endforeach()
+    # Images of the host's, with the shaders instrumented.
+    vulkan_validated(gpu_pass ${enable}_GPU_ASSISTED_EXT
+        $<TARGET_FILE:test_vulkan_formats> --usual)
 endif()
 
 if(TARGET crevice_tool)
     tool_test(tool_vulkan)
-    set_tests_properties(tool_vulkan PROPERTIES LABELS vulkan TIMEOUT 600)
+    set_tests_properties(tool_vulkan PROPERTIES LABELS "vulkan;once" TIMEOUT 600)
 endif()

@@ -41,6 +41,7 @@ crv_vulkan_host engine_host(const engine *e)
     device.queue = e->h.queue;
     device.has_synchronization2 = VK_TRUE;
     device.has_storage_image_write_without_format = VK_TRUE;
+    device.has_shader_float16 = e->h.has_float16;
     return device;
 }
 
@@ -78,9 +79,8 @@ static int is_depth(VkFormat format)
 /* A barrier has to name all aspects of an image. */
 static VkImageAspectFlags aspects_of(VkFormat format)
 {
-    if (format >= VK_FORMAT_D16_UNORM_S8_UINT)
-        return is_depth(format) ? VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT
-                                : VK_IMAGE_ASPECT_COLOR_BIT;
+    if (is_depth(format) && format >= VK_FORMAT_D16_UNORM_S8_UINT)
+        return VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
     return is_depth(format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 
@@ -103,9 +103,11 @@ host_image engine_upload(engine *e, VkFormat format, int width, int height,
     const VkBufferImageCopy copy =
         whole(is_depth(format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT,
               width, height);
-    host_image image =
-        host_image_make(&e->h, format, width, height,
-                        VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+    const VkImageUsageFlags drawn =
+        is_depth(format) ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : 0;
+    host_image image = host_image_make(&e->h, format, width, height,
+                                       VK_IMAGE_USAGE_SAMPLED_BIT
+                                           | VK_IMAGE_USAGE_TRANSFER_DST_BIT | drawn);
     host_buffer buffer = host_buffer_make(&e->h, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     memcpy(buffer.bytes, bytes, size);
     const VkCommandBuffer commands = engine_begin(e, 0);
@@ -121,8 +123,16 @@ host_image engine_upload(engine *e, VkFormat format, int width, int height,
 
 host_image engine_result(engine *e, VkFormat format, int width, int height)
 {
+    VkFormatProperties properties;
+    vkGetPhysicalDeviceFormatProperties(e->h.physical, format, &properties);
+    const VkImageUsageFlags drawn =
+        properties.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT
+            ? VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT
+            : 0;
     return host_image_make(&e->h, format, width, height,
-                           VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+                           VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT
+                               | VK_IMAGE_USAGE_TRANSFER_SRC_BIT
+                               | VK_IMAGE_USAGE_TRANSFER_DST_BIT | drawn);
 }
 
 void *engine_download(engine *e, const host_image *image, int width, int height,

@@ -44,7 +44,7 @@ typedef enum crv_status {
     CRV_ERROR_OUT_OF_MEMORY =
         2, /* the allocator returned NULL, or a size does not fit size_t */
     CRV_ERROR_UNSUPPORTED = 3, /* valid, but not by this build, method or device */
-    /* called too early: the G-buffer has no camera or no depth */
+    /* called too early: the G-buffer has no camera or no depth, nothing was timed yet */
     CRV_ERROR_NOT_READY = 4,
     CRV_ERROR_DEVICE = 5 /* the device was lost, or a call to its driver failed */
 } crv_status;

@@ -40,6 +40,16 @@ typedef enum crv_device {
     CRV_DEVICE_VULKAN = 1
 } crv_device;
 
+/* How depth lies in a Vulkan device's memory (docs/gpu.md). */
+typedef enum crv_depth_layout {
+    CRV_DEPTH_PLAIN = 0, /* an image */
+    /* Taken apart by the phases of the noise tile, of 2 to 8 px: the same picture. */
+    CRV_DEPTH_APART = 1,
+    /* hbao and alchemy read coarser levels from 16 px on: another draw of the estimate,
+     * as near to the truth. */
+    CRV_DEPTH_LEVELS = 2
+} crv_depth_layout;
+
 /* Fill it with crv_context_desc_init(), then change what differs. */
 typedef struct crv_context_desc {
     size_t struct_size;      /* set by crv_context_desc_init() */
@@ -55,6 +65,10 @@ typedef struct crv_context_desc {
     int32_t exact;
     crv_device device;    /* default CRV_DEVICE_CPU */
     int32_t device_index; /* Vulkan: as crv_vulkan_device_info() counts; default 0 */
+    /* Vulkan, for plans; crv_vulkan_pass_desc has the same for passes. 1: filters compute
+     * in half floats where the device can; within 2e-3 of the others. Default 0. */
+    int32_t half_filters;
+    crv_depth_layout depth_layout; /* Vulkan, for plans, likewise; default PLAIN */
 } crv_context_desc;
 
 /* Sets the defaults. Pass sizeof *desc as struct_size. Thread-safe. */
@@ -81,7 +95,7 @@ CRV_API crv_isa crv_context_isa(const crv_context *context);
 /* A device for crv_context_desc. */
 typedef struct crv_device_info {
     char name[256];    /* as the driver gives it */
-    char driver[64];   /* version numbers of the driver and of Vulkan */
+    char driver[256];  /* its name and version as it gives them; Vulkan's version */
     int32_t software;  /* 1: runs on the CPU (lavapipe) */
     char missing[128]; /* why Crevice cannot use it; "": it can */
 } crv_device_info;
@@ -137,10 +151,13 @@ CRV_API crv_status crv_plan_filter(crv_plan *plan, crv_gbuffer *gbuffer,
 
 /* The time that a step of a run took on the device. */
 typedef struct crv_device_time {
-    const char *name; /* "upload", the method's or filter's name, "download"; static */
+    const char *name; /* "upload", "deinterleave", "levels", the method's or filter's
+                         name, "download"; static */
     double time_ms;
     /* That must move at least: images read and written, each counted once. */
     double bytes;
+    /* Texels fetched from images, at most: rays may end early. 0 where none are. */
+    double fetches;
 } crv_device_time;
 
 #define CRV_MAX_DEVICE_TIMES 8
@@ -148,8 +165,8 @@ typedef struct crv_device_time {
 /*
  * The steps of the plan's last run by the device's own clock. times: room for
  * CRV_MAX_DEVICE_TIMES; *count says how many were written. Errors: INVALID_ARGUMENT;
- * NOT_READY before the first run; UNSUPPORTED on the CPU, or where the device has no
- * timestamps; DEVICE where its driver fails.
+ * NOT_READY before the first run that ended well; UNSUPPORTED on the CPU, or where the
+ * device has no timestamps; DEVICE where its driver fails.
  */
 CRV_API crv_status crv_plan_device_times(const crv_plan *plan, crv_device_time *times,
                                          int32_t *count);
@@ -164,6 +181,33 @@ CRV_API crv_status crv_plan_device_times(const crv_plan *plan, crv_device_time *
  */
 CRV_API crv_status crv_context_device_bandwidth(crv_context *context,
                                                 double *bytes_per_s);
+
+/* How a shader can get at depth, and where it looks. */
+typedef enum crv_fetch_path {
+    CRV_FETCH_SAMPLED,       /* texelFetch() of a sampled image: what the methods do */
+    CRV_FETCH_STORAGE_IMAGE, /* imageLoad() */
+    CRV_FETCH_BUFFER,        /* a storage buffer, row by row */
+    CRV_FETCH_GATHER,        /* textureGather(): four neighbours at once, each counted */
+    CRV_FETCH_SHARED, /* from shared memory, filled by the workgroup: where it fits in */
+    CRV_FETCH_PATHS
+} crv_fetch_path;
+
+typedef enum crv_fetch_pattern {
+    CRV_FETCH_ROW,  /* 64 neighbours in a row */
+    CRV_FETCH_NEAR, /* 8 directions of 8 steps to 8 px, turned as the noise tile says */
+    CRV_FETCH_DISK, /* to 64 px */
+    CRV_FETCH_IN_STEP, /* to 64 px, interleaved, from depth taken apart (APART) */
+    CRV_FETCH_PATTERNS
+} crv_fetch_pattern;
+
+/*
+ * How many depths of a 2048x2048 image the device fetches in a second by each path in
+ * each pattern, by its own clock, the best of several runs; 0 where that pattern has no
+ * such path. Takes 50 MiB of device memory, submits to the context's queue and waits;
+ * gives all back. Errors: as crv_context_device_bandwidth().
+ */
+CRV_API crv_status crv_context_device_fetches(
+    crv_context *context, double fetches_per_s[CRV_FETCH_PATHS][CRV_FETCH_PATTERNS]);
 
 /* The most subpixel samples that crv_multisample_gather() takes. */
 #define CRV_MAX_SUBSAMPLES 16

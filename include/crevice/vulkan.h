@@ -69,6 +69,8 @@ typedef struct crv_vulkan_host {
     VkQueue queue;
     /* Whether the device was made with these features: a VkDevice cannot be asked. */
     VkBool32 has_synchronization2, has_storage_image_write_without_format;
+    /* Not needed: with shaderFloat16 filters can compute in half floats. */
+    VkBool32 has_shader_float16;
     const VkAllocationCallbacks *callbacks; /* NULL: Vulkan's own */
     crv_vulkan_memory memory;
 } crv_vulkan_host;
@@ -85,14 +87,51 @@ CRV_API crv_status crv_vulkan_context_create(const crv_context_desc *desc,
                                              const crv_vulkan_host *host,
                                              crv_context **out);
 
-/* How an image of normals is encoded. */
+/* How an image of normals is encoded. They may have any length but zero. */
 typedef enum crv_vulkan_normals {
     CRV_VULKAN_NORMALS_NONE = 0,       /* reconstructed from depth */
-    CRV_VULKAN_NORMALS_XYZ = 1,        /* as stored: float or signed normalised formats */
-    CRV_VULKAN_NORMALS_XYZ_HALVED = 2, /* n * 0.5 + 0.5: unsigned normalised formats */
-    CRV_VULKAN_NORMALS_OCT = 3,        /* octahedral in x, y: float or signed formats */
-    CRV_VULKAN_NORMALS_OCT_HALVED = 4  /* octahedral * 0.5 + 0.5: unsigned formats */
+    CRV_VULKAN_NORMALS_XYZ = 1,        /* as stored */
+    CRV_VULKAN_NORMALS_XYZ_HALVED = 2, /* n * 0.5 + 0.5 */
+    CRV_VULKAN_NORMALS_OCT = 3,        /* octahedral in x, y (Cigolle et al. 2014) */
+    CRV_VULKAN_NORMALS_OCT_HALVED = 4  /* octahedral * 0.5 + 0.5 */
 } crv_vulkan_normals;
+
+/*
+ * Formats, VK_FORMAT_ left out. All others are refused, those of integers and sRGB among
+ * them. Not every device has every one: crv_vulkan_pass_create() asks it.
+ *
+ * Depth, read as the first component of what is sampled, in any encoding that
+ * crv_depth_format has (hardware, reversed, infinite, planar, ...):
+ *   D32_SFLOAT, D32_SFLOAT_S8_UINT, D24_UNORM_S8_UINT, X8_D24_UNORM_PACK32, D16_UNORM,
+ *   D16_UNORM_S8_UINT, R32_SFLOAT, R16_UNORM, and the first component of R32G32_SFLOAT
+ *   and R32G32B32A32_SFLOAT. Also R16_SFLOAT, R16G16_SFLOAT and R16G16B16A16_SFLOAT,
+ *   whose steps are up to 1/1024 of the depth: coarse where the radius is a small part of
+ *   it.
+ * Normals, by encoding:
+ *   XYZ: R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT, R8G8B8A8_SNORM, A8B8G8R8_SNORM_PACK32,
+ *     A2B10G10R10_SNORM_PACK32, R16G16B16A16_SNORM.
+ *   XYZ_HALVED: R8G8B8A8_UNORM, B8G8R8A8_UNORM, A8B8G8R8_UNORM_PACK32,
+ *     A2R10G10B10_UNORM_PACK32, A2B10G10R10_UNORM_PACK32, R16G16B16A16_UNORM,
+ *     B10G11R11_UFLOAT_PACK32, R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT.
+ *   OCT: those of XYZ, and R16G16_SFLOAT, R32G32_SFLOAT, R8G8_SNORM, R16G16_SNORM.
+ *   OCT_HALVED: those of XYZ_HALVED, and R8G8_UNORM, R16G16_UNORM, R16G16_SFLOAT,
+ *     R32G32_SFLOAT.
+ * Results, every component the same:
+ *   R8_UNORM, R16_UNORM, R16_SFLOAT, R32_SFLOAT, R8G8_UNORM, R16G16_UNORM, R16G16_SFLOAT,
+ *   R32G32_SFLOAT, R8G8B8A8_UNORM, B8G8R8A8_UNORM, A8B8G8R8_UNORM_PACK32,
+ *   A2R10G10B10_UNORM_PACK32, A2B10G10R10_UNORM_PACK32, B10G11R11_UFLOAT_PACK32,
+ *   R16G16B16A16_UNORM, R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT.
+ */
+
+/* Whether the filters bilateral13 and gauss5 compute in half floats, two pixels at a
+ * time: within 2e-3 of the other picture. Depth stays in 32 bits. Only where the device
+ * has shaderFloat16 and filter_normal is 10 to 90 or 180 degrees. */
+typedef enum crv_vulkan_half {
+    CRV_VULKAN_HALF_AUTO =
+        0, /* but on devices that are CPUs: half floats are slower there */
+    CRV_VULKAN_HALF_OFF = 1,
+    CRV_VULKAN_HALF_ON = 2
+} crv_vulkan_half;
 
 #define CRV_VULKAN_MAX_FRAMES 8
 
@@ -102,12 +141,12 @@ typedef struct crv_vulkan_pass_desc {
     /* Frames in flight: so many recordings may be executed or waited for at the same
      * time. 1 to CRV_VULKAN_MAX_FRAMES, default 2. */
     int32_t frames;
-    VkFormat depth_format;      /* D32, D24S8, D16, R32F, ...: read by sampling its first
-                                   component. Default D32_SFLOAT */
-    crv_vulkan_normals normals; /* default NONE */
+    /* One of the formats above each. */
+    VkFormat depth_format;         /* default D32_SFLOAT */
+    crv_vulkan_normals normals;    /* default NONE */
     crv_normal_space normal_space; /* default CRV_NORMAL_VIEW */
     VkFormat normal_format;        /* where normals is not NONE */
-    VkFormat result_format;        /* R8_UNORM (default), R16_SFLOAT, R32_SFLOAT, ... */
+    VkFormat result_format;        /* default R8_UNORM */
     VkBool32 timestamps;           /* crv_vulkan_pass_times() */
     /* Takes depth apart by the phases of the noise tile, so that pixels which march in
      * step read neighbouring texels: the same picture, 8 bytes a pixel more. For tiles of
@@ -118,6 +157,7 @@ typedef struct crv_vulkan_pass_desc {
      * estimate, as near to the truth, but not the picture of the CPU. Default 0: off;
      * not together with deinterleave. */
     int32_t level_px;
+    crv_vulkan_half half_filters; /* default AUTO */
 } crv_vulkan_pass_desc;
 
 /* Sets the defaults. Pass sizeof *desc as struct_size. Thread-safe. */
@@ -131,8 +171,9 @@ typedef struct crv_vulkan_pass crv_vulkan_pass;
  * copied. For another size or other options make another pass and destroy this one when
  * its last recording has been executed. *out must be destroyed before its context, and
  * serves one thread at a time together with it.
- * Errors: INVALID_ARGUMENT; UNSUPPORTED where the device lacks a format, cannot compute
- * this, or the context has no Vulkan device; DEVICE where its driver fails;
+ * Errors: INVALID_ARGUMENT, also where the format of normals cannot hold their encoding;
+ * UNSUPPORTED where a format is not listed above or the device lacks it, where it cannot
+ * compute this, or the context has no Vulkan device; DEVICE where its driver fails;
  * OUT_OF_MEMORY.
  */
 CRV_API crv_status crv_vulkan_pass_create(crv_context *context,
@@ -148,8 +189,13 @@ CRV_API void crv_vulkan_pass_destroy(crv_vulkan_pass *pass);
 typedef struct crv_vulkan_input {
     /* 2D, of one aspect, the size of the G-buffer; its image has SAMPLED usage. */
     VkImageView view;
-    /* The layout that it is in: GENERAL, SHADER_READ_ONLY_OPTIMAL (default), or one of
-     * the read-only depth layouts. It stays in it. */
+    /*
+     * The layout that it is in, and stays in: SHADER_READ_ONLY_OPTIMAL (default), GENERAL
+     * or READ_ONLY_OPTIMAL; of depth formats also DEPTH_STENCIL_READ_ONLY_OPTIMAL,
+     * DEPTH_READ_ONLY_OPTIMAL or DEPTH_READ_ONLY_STENCIL_ATTACHMENT_OPTIMAL. Others are
+     * refused. Whether the image really is in it cannot be asked: only the validation
+     * layer follows that, so develop with it.
+     */
     VkImageLayout layout;
 } crv_vulkan_input;
 
@@ -166,7 +212,8 @@ typedef struct crv_vulkan_frame {
     VkImage result;
     VkImageView result_view; /* of it, 2D, storage usage */
     /* The layout that the result gets; what it held is discarded. Default
-     * SHADER_READ_ONLY_OPTIMAL. */
+     * SHADER_READ_ONLY_OPTIMAL; UNDEFINED, PREINITIALIZED and those of depth are refused.
+     */
     VkImageLayout result_layout;
     /* Who reads it afterwards. Default: sampled in fragment and compute shaders. */
     VkPipelineStageFlags2 result_stages;
@@ -196,8 +243,9 @@ CRV_API crv_status crv_vulkan_pass_record(crv_vulkan_pass *pass, VkCommandBuffer
 
 /* The time that a step of a recording took on the device. */
 typedef struct crv_vulkan_time {
-    /* "depth" (one for each layer), "normals", "deinterleave", "levels", the method's
-     * name, and the filter's, or "filter, first pass" and "filter, second pass"; static.
+    /* "depth and normals", "depth" (each further layer), "deinterleave", "levels", the
+     * method's name, and the filter's, or "filter, first pass" and "filter, second pass";
+     * static.
      */
     const char *name;
     double time_ms;
@@ -206,11 +254,12 @@ typedef struct crv_vulkan_time {
 #define CRV_VULKAN_MAX_TIMES 16
 
 /*
- * Times of the last recording of the frame in flight `index`, once it has been executed.
+ * Times of the last recording of the frame in flight `index`, which must have been
+ * submitted.
  * times: room for CRV_VULKAN_MAX_TIMES; *count says how many were written. Does not wait.
- * Errors: INVALID_ARGUMENT; NOT_READY while it is executed, or where nothing was
- * recorded; UNSUPPORTED where desc.timestamps is not set or the queue family has none;
- * DEVICE where the driver fails.
+ * Errors: INVALID_ARGUMENT; NOT_READY while it is executed (not logged: it is what asking
+ * is for), or where nothing was recorded; UNSUPPORTED where desc.timestamps is not set or
+ * the queue family has none; DEVICE where the driver fails.
  */
 CRV_API crv_status crv_vulkan_pass_times(crv_vulkan_pass *pass, int32_t index,
                                          crv_vulkan_time *times, int32_t *count);

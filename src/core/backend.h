@@ -59,6 +59,9 @@ struct crv__backend {
                         crv_device_time *times, int32_t *count);
     /* crv_context_device_bandwidth(); NULL: there is no device. */
     crv_status (*bandwidth)(crv_context *context, double *bytes_per_s);
+    /* crv_context_device_fetches(); NULL likewise. */
+    crv_status (*fetches)(crv_context *context,
+                          double per_s[CRV_FETCH_PATHS][CRV_FETCH_PATTERNS]);
     void (*close)(crv_context *context); /* its device; NULL: nothing to do */
 };
 

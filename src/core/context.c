@@ -60,6 +60,13 @@ crv_status crv__context_create_bare(const crv_context_desc *desc, crv_context **
     if (desc->exact != 0 && desc->exact != 1)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "context: exact is %d; use 0 or 1", desc->exact);
+    if (desc->half_filters != 0 && desc->half_filters != 1)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "context: half_filters is %d; use 0 or 1", desc->half_filters);
+    if (desc->depth_layout < CRV_DEPTH_PLAIN || desc->depth_layout > CRV_DEPTH_LEVELS)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "context: depth_layout is %d; use one of crv_depth_layout",
+                         (int)desc->depth_layout);
     crv_allocator allocator =
         desc->allocator.allocate ? desc->allocator : crv__default_allocator();
     crv_context *context = crv__allocate(&allocator, 1, sizeof *context);
@@ -71,6 +78,8 @@ crv_status crv__context_create_bare(const crv_context_desc *desc, crv_context **
                              .threads = desc->threads,
                              .isa_mask = desc->isa_mask ? desc->isa_mask : UINT32_MAX,
                              .exact = desc->exact,
+                             .half_filters = desc->half_filters,
+                             .depth_layout = desc->depth_layout,
                              .backend = &crv__cpu_backend};
     *out = context;
     return CRV_OK;
@@ -105,17 +114,32 @@ void crv_context_destroy(crv_context *context)
     crv__release(&allocator, context, 1, sizeof *context);
 }
 
-crv_status crv_context_device_bandwidth(crv_context *context, double *bytes_per_s)
+static crv_status check_clock(const crv_context *context, const void *out)
 {
-    if (!context)
-        return CRV_ERROR_INVALID_ARGUMENT;
-    if (!bytes_per_s)
+    if (!out)
         return crv__fail(&context->logger, CRV_ERROR_INVALID_ARGUMENT,
-                         "context: bytes_per_s is NULL");
+                         "context: there is no place for the result; give one");
     if (!context->backend->bandwidth)
         return crv__fail(&context->logger, CRV_ERROR_UNSUPPORTED,
                          "context: %s is no device whose memory has a clock; make the "
                          "context with a Vulkan device",
                          context->backend->name);
-    return context->backend->bandwidth(context, bytes_per_s);
+    return CRV_OK;
+}
+
+crv_status crv_context_device_bandwidth(crv_context *context, double *bytes_per_s)
+{
+    if (!context)
+        return CRV_ERROR_INVALID_ARGUMENT;
+    const crv_status status = check_clock(context, bytes_per_s);
+    return status ? status : context->backend->bandwidth(context, bytes_per_s);
+}
+
+crv_status crv_context_device_fetches(
+    crv_context *context, double fetches_per_s[CRV_FETCH_PATHS][CRV_FETCH_PATTERNS])
+{
+    if (!context)
+        return CRV_ERROR_INVALID_ARGUMENT;
+    const crv_status status = check_clock(context, fetches_per_s);
+    return status ? status : context->backend->fetches(context, fetches_per_s);
 }

@@ -14,8 +14,10 @@ struct crv_context {
     crv_allocator allocator;
     crv_parallel parallel;
     int32_t threads;
-    uint32_t isa_mask; /* never 0 */
-    int32_t exact;     /* 0 or 1 */
+    uint32_t isa_mask;             /* never 0 */
+    int32_t exact;                 /* 0 or 1 */
+    int half_filters;              /* on a device, as in crv_context_desc */
+    crv_depth_layout depth_layout; /* likewise */
     const crv__backend *backend;
     void *device; /* the backend's; NULL: none */
 };

@@ -30,12 +30,16 @@ struct crv__push {
     float unused;
 
     float to_view[9]; /* of normals: 3x3, row by row */
+
+    /* An estimate's directions or points, where it is computed in parts. */
+    int32_t part_begin, part_end;
+    int32_t is_last_part; /* 0 or 1 */
 };
 
 #ifndef VULKAN
 typedef struct crv__push crv__push;
 
-_Static_assert(sizeof(crv__push) == 100, "at most 128 bytes; layout shared with GLSL");
+_Static_assert(sizeof(crv__push) == 112, "at most 128 bytes; layout shared with GLSL");
 _Static_assert(offsetof(crv__push, to_view) == 64, "layout shared with GLSL");
 #endif
 

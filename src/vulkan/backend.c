@@ -46,7 +46,14 @@ static void plan_destroy(const crv__setup *setup, void *data)
 static crv_status plan_create(const crv__setup *setup, const crv__plane *rectangle,
                               void **out)
 {
-    static const crv__program_desc PROGRAM = {.edge = 1};
+    enum { LEVEL_PX = 16 };
+    const crv_depth_layout depth = setup->context->depth_layout;
+    const crv__program_desc program = {
+        .edge = depth == CRV_DEPTH_APART
+                    ? crv__apart_edge(crv__device_of(setup->context), setup)
+                    : 1,
+        .half = setup->context->half_filters,
+        .level_px = depth == CRV_DEPTH_LEVELS ? LEVEL_PX : 0};
     const crv__device *d = crv__device_of(setup->context);
     const crv__slot_desc slot = {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R32_SFLOAT,
                                  d->timestamp_bits > 0};
@@ -57,7 +64,7 @@ static crv_status plan_create(const crv__setup *setup, const crv__plane *rectang
     plan_state *state = crv__allocate(&setup->context->allocator, 1, sizeof *state);
     if (!state)
         return crv__fail(&d->logger, CRV_ERROR_OUT_OF_MEMORY, "plan: out of memory");
-    status = crv__program_create(&state->program, d, setup, &PROGRAM);
+    status = crv__program_create(&state->program, d, setup, &program);
     if (status == CRV_OK)
         status = crv__slot_create(&state->slot, &state->program, setup, &slot);
     if (status == CRV_OK)
@@ -164,14 +171,15 @@ static int32_t record_passes(plan_state *state, int filter_only)
                       .out_width = r->width,
                       .out_height = r->height};
     if (!filter_only) {
-        crv__slot_record_step(&state->slot, state->commands.buffer,
-                              &state->program.estimate, state->slot.estimate_set, &push);
+        crv__slot_record_layouts(&state->slot, state->commands.buffer, &push);
+        if (state->program.deinterleave.pipeline || state->program.prefilter.pipeline)
+            crv__record_between(d, state->commands.buffer);
+        crv__push_out(&push, *r);
+        crv__slot_record_estimate(&state->slot, state->commands.buffer, &push);
         crv__slot_record_time(&state->slot, state->commands.buffer);
     }
     for (push.pass = 0; push.pass < state->program.passes; push.pass++) {
-        crv__record_barrier(d, state->commands.buffer, CRV__WRITTEN,
-                            (crv__access){CRV__SAMPLED.stages,
-                                          CRV__SAMPLED.access | CRV__WRITTEN.access});
+        crv__record_between(d, state->commands.buffer);
         crv__slot_record_step(&state->slot, state->commands.buffer,
                               &state->program.filter[push.pass],
                               state->slot.filter_set[push.pass], &push);
@@ -238,6 +246,31 @@ static double bytes_of(const crv__setup *setup, int reads_input)
     return pixels * texel + (double)r.width * r.height * (reads_input ? 8 : 4);
 }
 
+/* The steps that a run had between upload and download; their count. */
+static int32_t name_steps(const crv__setup *setup, const plan_state *state,
+                          crv_device_time *out)
+{
+    const crv__rectangle r = crv__setup_rectangle(setup);
+    const double layers = setup->desc.layers, area = (double)r.width * r.height,
+                 depths = layers * setup->desc.width * setup->desc.height;
+    int32_t count = 0;
+    if (!state->filter_only && state->program.deinterleave.pipeline)
+        out[count++] =
+            (crv_device_time){"deinterleave", .bytes = 8 * depths, .fetches = depths};
+    if (!state->filter_only && state->program.prefilter.pipeline) /* 1/4 + 1/16 + ... */
+        out[count++] =
+            (crv_device_time){"levels", .bytes = 8 * depths / 3, .fetches = depths / 3};
+    if (!state->filter_only)
+        out[count++] =
+            (crv_device_time){setup->method->info.name, .bytes = bytes_of(setup, 0),
+                              .fetches = area * (2 + layers * crv__setup_samples(setup))};
+    for (int32_t i = 0; i < state->program.passes; i++)
+        out[count++] = (crv_device_time){
+            setup->filter->info.name, .bytes = bytes_of(setup, 1),
+            .fetches = area * crv__filter_fetches(&state->program, setup)};
+    return count;
+}
+
 static crv_status times(const crv__setup *setup, const void *data, crv_device_time *out,
                         int32_t *count)
 {
@@ -247,26 +280,22 @@ static crv_status times(const crv__setup *setup, const void *data, crv_device_ti
     if (!slot->queries)
         return crv__fail(&state->program.device->logger, CRV_ERROR_UNSUPPORTED,
                          "plan: the device has no timestamps");
-    if (slot->query_count == 0)
-        return CRV_ERROR_NOT_READY;
     double times_ms[CRV__MOST_STEPS];
-    const crv_status status = crv__slot_times(slot, times_ms);
+    const crv_status status =
+        slot->query_count ? crv__slot_times(slot, times_ms) : CRV_ERROR_NOT_READY;
+    if (status == CRV_ERROR_NOT_READY)
+        return crv__fail(&state->program.device->logger, status,
+                         "plan: no run has ended well, so that there are no times; call "
+                         "crv_plan_run() first");
     if (status)
         return status;
-    int32_t step = 0;
-    out[step] = (crv_device_time){"upload", times_ms[step], bytes_of(setup, 0)};
-    step++;
-    if (!state->filter_only) {
-        out[step] = (crv_device_time){setup->method->info.name, times_ms[step],
-                                      bytes_of(setup, 0)};
-        step++;
-    }
-    for (int32_t i = 0; i < state->program.passes; i++, step++)
-        out[step] = (crv_device_time){setup->filter->info.name, times_ms[step],
-                                      bytes_of(setup, 1)};
-    out[step] =
-        (crv_device_time){"download", times_ms[step], (double)r->width * r->height * 8};
-    *count = step + 1;
+    const int32_t steps = name_steps(setup, state, out + 1);
+    out[0] = (crv_device_time){"upload", .bytes = bytes_of(setup, 0)};
+    out[steps + 1] =
+        (crv_device_time){"download", .bytes = (double)r->width * r->height * 8};
+    for (int32_t i = 0; i < steps + 2; i++)
+        out[i].time_ms = times_ms[i];
+    *count = steps + 2;
     return CRV_OK;
 }
 
@@ -281,4 +310,5 @@ const crv__backend crv__vulkan_backend = {.name = "vulkan",
                                           .run = run,
                                           .times = times,
                                           .bandwidth = crv__device_bandwidth,
+                                          .fetches = crv__device_fetches,
                                           .close = close_device};

@@ -80,6 +80,16 @@ static const char *lacking(const crv__device *d, VkPhysicalDevice physical)
     return compute_family(d, physical) == NO_FAMILY ? "it has no queue for compute" : "";
 }
 
+static int can_half(const crv__device *d)
+{
+    VkPhysicalDeviceVulkan12Features v12 = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceFeatures2 features = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &v12};
+    d->vk.GetPhysicalDeviceFeatures2(d->physical, &features);
+    return v12.shaderFloat16 != VK_FALSE;
+}
+
 static void look_up_properties(crv__device *d)
 {
     VkQueueFamilyProperties families[MOST_FAMILIES];
@@ -145,8 +155,13 @@ static crv_status open_device(crv__device *d)
                                            .queueFamilyIndex = d->family,
                                            .queueCount = 1,
                                            .pQueuePriorities = &priority};
+    d->has_half = can_half(d);
+    VkPhysicalDeviceVulkan12Features v12 = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
+        .shaderFloat16 = d->has_half ? VK_TRUE : VK_FALSE};
     VkPhysicalDeviceVulkan13Features v13 = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
+        .pNext = &v12,
         .synchronization2 = VK_TRUE};
     const VkPhysicalDeviceFeatures2 features = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
@@ -239,6 +254,7 @@ static crv_status open_host(crv__device *d, const crv_vulkan_host *host)
         return status;
     const char *why = lacking(d, d->physical);
     look_up_properties(d);
+    d->has_half = host->has_shader_float16 && can_half(d);
     if (why[0])
         return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
                          "vulkan: %s cannot be used: %s", d->properties.deviceName, why);
@@ -334,6 +350,26 @@ crv_status crv_vulkan_context_create(const crv_context_desc *desc,
     return status;
 }
 
+static void describe(const crv__device *d, crv_device_info *info)
+{
+    VkPhysicalDeviceDriverProperties driver = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
+    d->vk.GetPhysicalDeviceProperties2(d->physical, &properties);
+    const VkPhysicalDeviceProperties *p = &properties.properties;
+    const uint32_t api = p->apiVersion;
+    *info = (crv_device_info){.software = p->deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU};
+    if (!driver.driverName[0]) /* before Vulkan 1.2 there is only a number */
+        snprintf(driver.driverName, sizeof driver.driverName, "driver 0x%x",
+                 p->driverVersion);
+    snprintf(info->name, sizeof info->name, "%s", p->deviceName);
+    snprintf(info->driver, sizeof info->driver, "%.100s%s%.100s, Vulkan %u.%u.%u",
+             driver.driverName, driver.driverInfo[0] ? " " : "", driver.driverInfo,
+             VK_API_VERSION_MAJOR(api), VK_API_VERSION_MINOR(api),
+             VK_API_VERSION_PATCH(api));
+}
+
 crv_status crv_vulkan_device_info(int32_t index, crv_device_info *info,
                                   const crv_logger *logger)
 {
@@ -349,14 +385,7 @@ crv_status crv_vulkan_device_info(int32_t index, crv_device_info *info,
     if (status == CRV_OK)
         status = choose_physical(d, index, &count);
     if (status == CRV_OK) {
-        VkPhysicalDeviceProperties p;
-        d->vk.GetPhysicalDeviceProperties(d->physical, &p);
-        *info =
-            (crv_device_info){.software = p.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU};
-        snprintf(info->name, sizeof info->name, "%s", p.deviceName);
-        snprintf(info->driver, sizeof info->driver, "driver 0x%x, Vulkan %u.%u.%u",
-                 p.driverVersion, VK_API_VERSION_MAJOR(p.apiVersion),
-                 VK_API_VERSION_MINOR(p.apiVersion), VK_API_VERSION_PATCH(p.apiVersion));
+        describe(d, info);
         snprintf(info->missing, sizeof info->missing, "%s", lacking(d, d->physical));
     }
     crv__device_destroy(d);

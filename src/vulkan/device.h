@@ -20,6 +20,7 @@ typedef struct crv__device {
     VkQueue queue; /* VK_NULL_HANDLE: the host gave none */
     uint32_t family, timestamp_bits;
     int is_lavapipe;
+    int has_half; /* shaderFloat16 is there and on */
     VkPhysicalDeviceProperties properties;
     VkPhysicalDeviceMemoryProperties heaps;
     const VkAllocationCallbacks *callbacks;
@@ -42,6 +43,10 @@ double crv__device_seconds(const crv__device *d, uint64_t from, uint64_t to);
 
 /* crv_context_device_bandwidth() (bandwidth.c). */
 crv_status crv__device_bandwidth(crv_context *context, double *bytes_per_s);
+
+/* crv_context_device_fetches() (fetches.c). */
+crv_status crv__device_fetches(crv_context *context,
+                               double per_s[CRV_FETCH_PATHS][CRV_FETCH_PATTERNS]);
 
 /* NULL does nothing. */
 void crv__device_destroy(crv__device *d);

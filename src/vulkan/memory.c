@@ -44,8 +44,8 @@ static VkResult allocate(const crv__device *d, const VkMemoryRequirements *requi
     return result;
 }
 
-crv_status crv__buffer_create(crv__buffer *b, const crv__device *d, VkDeviceSize size,
-                              VkBufferUsageFlags usage)
+static crv_status create_buffer(crv__buffer *b, const crv__device *d, VkDeviceSize size,
+                                VkBufferUsageFlags usage, VkMemoryPropertyFlags needed)
 {
     const VkBufferCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = size, .usage = usage};
@@ -55,14 +55,25 @@ crv_status crv__buffer_create(crv__buffer *b, const crv__device *d, VkDeviceSize
     VkMemoryRequirements requirements;
     d->vk.GetBufferMemoryRequirements(d->device, b->buffer, &requirements);
     b->size = requirements.size;
-    result = allocate(d, &requirements,
-                      VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT
-                          | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
-                      &b->block);
+    result = allocate(d, &requirements, needed, &b->block);
     if (result == VK_SUCCESS)
         result = d->vk.BindBufferMemory(d->device, b->buffer, b->block.memory,
                                         b->block.offset);
     return result ? crv__device_fail(d, result, "memory of a buffer") : CRV_OK;
+}
+
+crv_status crv__buffer_create(crv__buffer *b, const crv__device *d, VkDeviceSize size,
+                              VkBufferUsageFlags usage)
+{
+    return create_buffer(b, d, size, usage,
+                         VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT
+                             | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+}
+
+crv_status crv__buffer_create_local(crv__buffer *b, const crv__device *d,
+                                    VkDeviceSize size, VkBufferUsageFlags usage)
+{
+    return create_buffer(b, d, size, usage, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
 }
 
 void crv__buffer_destroy(crv__buffer *b, const crv__device *d)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Passes in the host's command buffer. */
+#include "vulkan/formats.h"
 #include "vulkan/slot.h"
 
 #include "core/camera.h"
@@ -51,34 +52,11 @@ static crv_status check_desc(const crv_logger *logger, const crv_vulkan_pass_des
     if (desc->level_px < 0)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "pass: level_px is %d; 0 or more", desc->level_px);
-    return CRV_OK;
-}
-
-static int has_features(const crv__device *d, VkFormat format,
-                        VkFormatFeatureFlags features)
-{
-    VkFormatProperties properties;
-    d->vk.GetPhysicalDeviceFormatProperties(d->physical, format, &properties);
-    return (properties.optimalTilingFeatures & features) == features;
-}
-
-static crv_status check_formats(const crv__device *d, const crv_vulkan_pass_desc *desc)
-{
-    const VkFormatFeatureFlags sampled = VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT,
-                               storage = VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT;
-    if (!has_features(d, desc->depth_format, sampled))
-        return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
-                         "pass: %s does not sample depth_format %d; give another",
-                         d->properties.deviceName, (int)desc->depth_format);
-    if (desc->normals && !has_features(d, desc->normal_format, sampled))
-        return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
-                         "pass: %s does not sample normal_format %d; give another",
-                         d->properties.deviceName, (int)desc->normal_format);
-    if (!has_features(d, desc->result_format, storage))
-        return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
-                         "pass: %s has no storage images of result_format %d; give "
-                         "R32_SFLOAT, which every device has",
-                         d->properties.deviceName, (int)desc->result_format);
+    if (desc->half_filters < CRV_VULKAN_HALF_AUTO
+        || desc->half_filters > CRV_VULKAN_HALF_ON)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "pass: half_filters is %d; use one of crv_vulkan_half",
+                         (int)desc->half_filters);
     return CRV_OK;
 }
 
@@ -88,20 +66,16 @@ static VkFormat preferred(const crv__device *d, VkFormat small, VkFormat sure)
 {
     const VkFormatFeatureFlags both =
         VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT | VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT;
-    return has_features(d, small, both) ? small : sure;
+    return crv__format_has(d, small, both) ? small : sure;
 }
 
 /* ---- life ---- */
 
-/* By how many pixels depth is taken apart: a workgroup then has one place of the tile. */
-static int32_t apart_edge(const crv__device *d, const crv__setup *setup,
-                          const crv_vulkan_pass_desc *desc)
+static int wants_half(const crv__device *d, crv_vulkan_half half)
 {
-    const int32_t edge = setup->options.noise_size;
-    const uint32_t layers = (uint32_t)(edge * edge * setup->desc.layers);
-    const int fits =
-        edge >= 2 && edge <= 8 && layers <= d->properties.limits.maxImageArrayLayers;
-    return desc->deinterleave && fits ? edge : 1;
+    return half == CRV_VULKAN_HALF_ON
+           || (half == CRV_VULKAN_HALF_AUTO
+               && d->properties.deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU);
 }
 
 static crv_status create_parts(crv_vulkan_pass *p)
@@ -112,10 +86,11 @@ static crv_status create_parts(crv_vulkan_pass *p)
             preferred(d, VK_FORMAT_R16G16B16A16_SNORM, VK_FORMAT_R32G32B32A32_SFLOAT),
         .accessibility_format = preferred(d, VK_FORMAT_R16_SFLOAT, VK_FORMAT_R32_SFLOAT),
         .timestamps = p->desc.timestamps && d->timestamp_bits > 0};
-    const crv__program_desc program = {.converts = 1,
-                                       .edge = apart_edge(d, &p->setup, &p->desc),
-                                       .level_px =
-                                           p->desc.deinterleave ? 0 : p->desc.level_px};
+    const crv__program_desc program = {
+        .converts = 1,
+        .half = wants_half(d, p->desc.half_filters),
+        .edge = p->desc.deinterleave ? crv__apart_edge(d, &p->setup) : 1,
+        .level_px = p->desc.deinterleave ? 0 : p->desc.level_px};
     if (crv__setup_patterns(&p->setup))
         return crv__fail(&d->logger, CRV_ERROR_OUT_OF_MEMORY, "pass: out of memory");
     crv_status status = crv__program_create(&p->program, d, &p->setup, &program);
@@ -144,7 +119,7 @@ crv_status crv_vulkan_pass_create(crv_context *context, const crv_options *optio
     if (status == CRV_OK)
         status = check_desc(logger, desc);
     if (status == CRV_OK)
-        status = check_formats(d, desc);
+        status = crv__formats_check(d, desc);
     if (status)
         return status;
     crv__setup setup = {.context = context,
@@ -208,21 +183,6 @@ void crv_vulkan_frame_init(crv_vulkan_frame *frame, size_t struct_size)
     frame->normals.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 }
 
-static int is_readable(const crv_vulkan_input *input)
-{
-    switch (input->layout) {
-    case VK_IMAGE_LAYOUT_GENERAL:
-    case VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL:
-    case VK_IMAGE_LAYOUT_READ_ONLY_OPTIMAL:
-    case VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL:
-    case VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL:
-    case VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_STENCIL_ATTACHMENT_OPTIMAL:
-        return input->view != VK_NULL_HANDLE;
-    default:
-        return 0;
-    }
-}
-
 static crv_status check_frame(const crv_vulkan_pass *p, VkCommandBuffer commands,
                               const crv_vulkan_frame *frame)
 {
@@ -238,30 +198,13 @@ static crv_status check_frame(const crv_vulkan_pass *p, VkCommandBuffer commands
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "pass: index is %d; use 0 to %d, one for each frame in flight",
                          frame->index, p->desc.frames - 1);
-    for (int32_t i = 0; i < p->setup.desc.layers; i++) {
-        if (!is_readable(&frame->depth[i]))
-            return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
-                             "pass: depth layer %d has no view, or layout %d, which "
-                             "shaders cannot read",
-                             i, (int)frame->depth[i].layout);
-    }
-    if (p->desc.normals && !is_readable(&frame->normals))
-        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
-                         "pass: normals have no view, or layout %d, which shaders cannot "
-                         "read",
-                         (int)frame->normals.layout);
     if (!frame->result || !frame->result_view)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "pass: the result's image or view is missing; set result and "
                          "result_view");
-    if (frame->result_layout == VK_IMAGE_LAYOUT_UNDEFINED
-        || frame->result_layout == VK_IMAGE_LAYOUT_PREINITIALIZED)
-        return crv__fail(
-            logger, CRV_ERROR_INVALID_ARGUMENT,
-            "pass: the result cannot be left in layout %d; give the one that it "
-            "is read in",
-            (int)frame->result_layout);
-    return crv__camera_check(logger, &frame->camera);
+    const crv_status status =
+        crv__layouts_check(logger, &p->desc, p->setup.desc.layers, frame);
+    return status ? status : crv__camera_check(logger, &frame->camera);
 }
 
 static void fill_params(crv_vulkan_pass *p, const crv_vulkan_frame *frame,
@@ -296,67 +239,28 @@ static void fill_normals(crv__push *push, const crv_vulkan_pass *p,
            sizeof push->to_view);
 }
 
-static void set_out(crv__push *push, crv__rectangle r)
-{
-    push->out_x = r.x;
-    push->out_y = r.y;
-    push->out_width = r.width;
-    push->out_height = r.height;
-}
-
-/* What was written is read next, and images that were read are written. */
-static void record_between(const crv__device *d, VkCommandBuffer commands)
-{
-    crv__record_barrier(
-        d, commands, CRV__WRITTEN,
-        (crv__access){CRV__SAMPLED.stages, CRV__SAMPLED.access | CRV__WRITTEN.access});
-}
-
-/* Other layouts of depth, none of which waits for another or for the normals. */
-static void record_layouts(crv_vulkan_pass *p, crv__slot *slot, VkCommandBuffer commands,
-                           crv__push *push)
-{
-    const crv_gbuffer_desc *g = &p->setup.desc;
-    if (p->program.deinterleave.pipeline) {
-        crv__slot_record_step(slot, commands, &p->program.deinterleave, slot->apart_set,
-                              push);
-        crv__slot_record_time(slot, commands);
-    }
-    if (!p->program.prefilter.pipeline)
-        return;
-    for (push->layer = 0; push->layer < g->layers; push->layer++) {
-        for (push->pass = 1; push->pass < slot->depth.desc.levels; push->pass++) {
-            set_out(push, (crv__rectangle){0, 0, g->width >> push->pass,
-                                           g->height >> push->pass});
-            crv__slot_record_step(slot, commands, &p->program.prefilter,
-                                  slot->level_set[push->layer][push->pass], push);
-        }
-    }
-    push->layer = push->pass = 0;
-    crv__slot_record_time(slot, commands);
-}
-
 static void record_converts(crv_vulkan_pass *p, crv__slot *slot, VkCommandBuffer commands,
                             const crv_vulkan_frame *frame, crv__push *push)
 {
     const crv_gbuffer_desc *g = &p->setup.desc;
-    set_out(push, (crv__rectangle){0, 0, g->width, g->height});
-    for (push->layer = 0; push->layer < g->layers; push->layer++) {
-        const VkDescriptorSet set = slot->depth_set[push->layer];
-        const crv_vulkan_input *depth = &frame->depth[push->layer];
-        crv__bind_image(&p->program, set, CRV__BIND_HOST, depth->view, depth->layout);
-        crv__slot_record_step(slot, commands, &p->program.depth, set, push);
+    crv__push_out(push, (crv__rectangle){0, 0, g->width, g->height});
+    for (int32_t layer = 0; layer < g->layers; layer++) {
+        const VkDescriptorSet set = slot->depth_set[layer];
+        const crv_vulkan_input *depth = &frame->depth[layer];
+        crv__bind_image(&p->program, set, CRV__BIND_HOST_DEPTH, depth->view,
+                        depth->layout);
+        if (layer == 0 && p->desc.normals)
+            crv__bind_image(&p->program, set, CRV__BIND_HOST_NORMALS, frame->normals.view,
+                            frame->normals.layout);
+        crv__slot_record_step(slot, commands,
+                              layer == 0 ? &p->program.convert : &p->program.depth, set,
+                              push);
         crv__slot_record_time(slot, commands);
     }
-    push->layer = 0;
-    record_between(p->device, commands);
-    if (p->desc.normals)
-        crv__bind_image(&p->program, slot->normals_set, CRV__BIND_HOST,
-                        frame->normals.view, frame->normals.layout);
-    crv__slot_record_step(slot, commands, &p->program.normals, slot->normals_set, push);
-    crv__slot_record_time(slot, commands);
-    record_layouts(p, slot, commands, push);
-    record_between(p->device, commands);
+    if (p->program.deinterleave.pipeline || p->program.prefilter.pipeline)
+        crv__record_between(p->device, commands);
+    crv__slot_record_layouts(slot, commands, push);
+    crv__record_between(p->device, commands);
 }
 
 /* The last of them writes the host's image. */
@@ -376,12 +280,12 @@ static void record_passes(crv_vulkan_pass *p, crv__slot *slot, VkCommandBuffer c
         passes ? slot->filter_set[passes - 1] : slot->estimate_set;
     crv__bind_image(&p->program, last, CRV__BIND_OUTPUT, frame->result_view,
                     VK_IMAGE_LAYOUT_GENERAL);
-    set_out(push, passes ? slot->rectangle : result);
-    crv__slot_record_step(slot, commands, &p->program.estimate, slot->estimate_set, push);
+    crv__push_out(push, passes ? slot->rectangle : result);
+    crv__slot_record_estimate(slot, commands, push);
     crv__slot_record_time(slot, commands);
     for (push->pass = 0; push->pass < passes; push->pass++) {
-        record_between(p->device, commands);
-        set_out(push, push->pass + 1 < passes ? slot->rectangle : result);
+        crv__record_between(p->device, commands);
+        crv__push_out(push, push->pass + 1 < passes ? slot->rectangle : result);
         crv__slot_record_step(slot, commands, &p->program.filter[push->pass],
                               slot->filter_set[push->pass], push);
         crv__slot_record_time(slot, commands);
@@ -422,11 +326,11 @@ crv_status crv_vulkan_pass_record(crv_vulkan_pass *p, VkCommandBuffer commands,
 static const char *step_name(const crv_vulkan_pass *p, int32_t step)
 {
     static const char *const PASSES[2] = {"filter, first pass", "filter, second pass"};
+    if (step == 0)
+        return "depth and normals";
     if (step < p->setup.desc.layers)
         return "depth";
     step -= p->setup.desc.layers;
-    if (step-- == 0)
-        return "normals";
     if (p->program.deinterleave.pipeline && step-- == 0)
         return "deinterleave";
     if (p->program.prefilter.pipeline && step-- == 0)
@@ -452,7 +356,10 @@ crv_status crv_vulkan_pass_times(crv_vulkan_pass *p, int32_t index,
                          "pass: no timestamps; set desc.timestamps, on a queue family "
                          "that has them");
     if (!p->recorded[index])
-        return CRV_ERROR_NOT_READY;
+        return crv__fail(&d->logger, CRV_ERROR_NOT_READY,
+                         "pass: nothing was recorded for frame %d, so that there are no "
+                         "times; call crv_vulkan_pass_record() first",
+                         index);
     double times_ms[CRV__MOST_STEPS];
     const crv_status status = crv__slot_times(slot, times_ms);
     if (status)

@@ -7,14 +7,25 @@
 
 #include <string.h>
 
-static VkDescriptorType type_of(uint32_t binding)
+VkDescriptorType crv__binding_type(uint32_t binding)
 {
     if (binding == CRV__BIND_PARAMS)
         return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     if (binding < CRV__BIND_DEPTH)
         return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    return binding == CRV__BIND_OUTPUT ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
-                                       : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    return binding == CRV__BIND_OUTPUT || binding == CRV__BIND_NORMALS_OUTPUT
+               ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
+               : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+}
+
+void crv__specs_clear(int32_t specs[CRV__SPECS], int32_t group)
+{
+    for (int i = 0; i < CRV__SPECS; i++)
+        specs[i] = -1;
+    specs[CRV__SPEC_SIZE_X] = specs[CRV__SPEC_SIZE_Y] = group;
+    specs[CRV__SPEC_INTERLEAVE] = specs[CRV__SPEC_DEPTH_EDGE] = 1;
+    specs[CRV__SPEC_NORMALS_OCTAHEDRAL] = specs[CRV__SPEC_LOD_PX] = 0;
+    specs[CRV__SPEC_IN_PARTS] = 0;
 }
 
 static VkResult create_layouts(const crv__device *d, crv__pipelines *p)
@@ -23,7 +34,7 @@ static VkResult create_layouts(const crv__device *d, crv__pipelines *p)
     for (uint32_t i = 0; i < CRV__BINDINGS; i++)
         bindings[i] =
             (VkDescriptorSetLayoutBinding){.binding = i,
-                                           .descriptorType = type_of(i),
+                                           .descriptorType = crv__binding_type(i),
                                            .descriptorCount = 1,
                                            .stageFlags = VK_SHADER_STAGE_COMPUTE_BIT};
     const VkDescriptorSetLayoutCreateInfo sets = {

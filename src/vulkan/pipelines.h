@@ -19,7 +19,9 @@ enum {
     CRV__BIND_NORMALS,
     CRV__BIND_INPUT,
     CRV__BIND_OUTPUT,
-    CRV__BIND_HOST,
+    CRV__BIND_HOST_DEPTH,
+    CRV__BIND_HOST_NORMALS,
+    CRV__BIND_NORMALS_OUTPUT,
     CRV__BINDINGS
 };
 
@@ -45,6 +47,9 @@ enum {
     CRV__SPEC_BIASED,
     CRV__SPEC_FILTER_PASS,
     CRV__SPEC_LOD_PX,
+    CRV__SPEC_FETCH_PATH,
+    CRV__SPEC_FETCH_PATTERN,
+    CRV__SPEC_IN_PARTS,
     CRV__SPECS
 };
 
@@ -69,6 +74,11 @@ struct crv__pipelines {
 /* Sets d->pipelines. Where it fails, crv__pipelines_close() takes back the rest. */
 crv_status crv__pipelines_open(crv__device *d);
 void crv__pipelines_close(crv__device *d);
+
+/* All that a shader may have fixed left to the buffers, in workgroups of this edge. */
+void crv__specs_clear(int32_t specs[CRV__SPECS], int32_t group);
+
+VkDescriptorType crv__binding_type(uint32_t binding);
 
 /* The pipeline of a shader with these constants; to be given back. */
 crv_status crv__pipeline_take(const crv__device *d, const char *shader,

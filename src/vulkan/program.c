@@ -1,13 +1,49 @@
 /* SPDX-License-Identifier: MIT */
 #include "vulkan/program.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* Offsets of storage buffers: every device takes a multiple of this. */
 enum { OFFSET_ALIGNMENT = 256 };
 
-/* How often the loops of a pixel's estimate turn, at most. */
-static double loop_rounds(const crv__setup *setup)
+/*
+ * How often loops may turn for a pixel in one dispatch: as many fetches take a tenth of a
+ * second for a frame of 4K where a device makes 10^12 a second, and one that is ten times
+ * slower still keeps the seconds after which it is taken for lost. Lavapipe breaks loops
+ * off after 65535 rounds, all loops counted together.
+ */
+enum { PART_ROUNDS = 16384, LAVAPIPE_ROUNDS = 65535 };
+
+static int has_option(const crv__setup *setup, const char *key)
+{
+    return crv_option_applies(crv_option_find(key), &setup->method->info, NULL);
+}
+
+/* Directions or points: what an estimate is taken apart by. */
+static int32_t unit_count(const crv__setup *setup)
+{
+    const int has_points = setup->pattern || setup->method->pattern_fill;
+    return has_points ? setup->options.samples : setup->options.directions;
+}
+
+/* How often loops turn for one of them, at most. */
+static int32_t unit_rounds(const crv__setup *setup)
+{
+    const crv_options *o = &setup->options;
+    const int32_t layers = setup->desc.layers > 1 ? 1 + setup->desc.layers : 1;
+    const int32_t march = has_option(setup, "steps") ? o->steps * layers : layers;
+    return 1 + march
+           + (has_option(setup, "normal_rays") ? o->normal_rays * (1 + march) : 0);
+}
+
+static int32_t part_size(const crv__setup *setup)
+{
+    const int32_t units = PART_ROUNDS / unit_rounds(setup), all = unit_count(setup);
+    return units < 1 ? 1 : units < all ? units : all;
+}
+
+double crv__setup_samples(const crv__setup *setup)
 {
     const crv_options *o = &setup->options;
     const int has_points = setup->pattern || setup->method->pattern_fill;
@@ -18,12 +54,20 @@ static double loop_rounds(const crv__setup *setup)
     double rounds = has_points ? o->samples : o->directions;
     if (has_steps)
         rounds *= (double)o->steps * (has_rays ? 1 + o->normal_rays : 1);
-    return setup->desc.layers > 1 ? rounds * (1 + setup->desc.layers) : rounds;
+    return rounds;
+}
+
+int32_t crv__apart_edge(const crv__device *d, const crv__setup *setup)
+{
+    const int32_t edge = setup->options.noise_size;
+    const uint32_t layers = (uint32_t)(edge * edge * setup->desc.layers);
+    const int fits =
+        edge >= 2 && edge <= 8 && layers <= d->properties.limits.maxImageArrayLayers;
+    return fits ? edge : 1;
 }
 
 crv_status crv__setup_check(const crv__device *d, const crv__setup *setup)
 {
-    enum { LAVAPIPE_ROUNDS = 65535 };
     const uint32_t most = d->properties.limits.maxImageDimension2D;
     if ((uint32_t)setup->desc.width > most || (uint32_t)setup->desc.height > most)
         return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
@@ -31,23 +75,19 @@ crv_status crv__setup_check(const crv__device *d, const crv__setup *setup)
                          "CPU",
                          d->properties.deviceName, most, setup->desc.width,
                          setup->desc.height);
-    if (d->is_lavapipe && loop_rounds(setup) > LAVAPIPE_ROUNDS)
+    if (d->is_lavapipe && unit_rounds(setup) > LAVAPIPE_ROUNDS)
         return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
                          "vulkan: lavapipe breaks loops off after %d rounds, and gives a "
-                         "wrong picture; take fewer samples, or the CPU",
+                         "wrong picture; take fewer steps or normal_rays, or the CPU",
                          LAVAPIPE_ROUNDS);
     return CRV_OK;
 }
 
-/* All that a shader may have fixed; -1: read from the buffers. */
 static void clear_specs(crv__pipeline *pipeline, int32_t group, int32_t specs[CRV__SPECS])
 {
-    *pipeline = (crv__pipeline){.group = group, .interleave = 1};
-    for (int i = 0; i < CRV__SPECS; i++)
-        specs[i] = -1;
-    specs[CRV__SPEC_SIZE_X] = specs[CRV__SPEC_SIZE_Y] = group;
-    specs[CRV__SPEC_INTERLEAVE] = specs[CRV__SPEC_DEPTH_EDGE] = 1;
-    specs[CRV__SPEC_NORMALS_OCTAHEDRAL] = specs[CRV__SPEC_LOD_PX] = 0;
+    *pipeline =
+        (crv__pipeline){.group = group, .lanes_x = 1, .lanes_y = 1, .interleave = 1};
+    crv__specs_clear(specs, group);
 }
 
 static crv_status take_estimate(crv__program *p, const crv__setup *setup, int32_t group)
@@ -58,6 +98,7 @@ static crv_status take_estimate(crv__program *p, const crv__setup *setup, int32_
     specs[CRV__SPEC_INTERLEAVE] = specs[CRV__SPEC_DEPTH_EDGE] = p->estimate.interleave =
         p->desc.edge;
     specs[CRV__SPEC_LOD_PX] = p->desc.level_px;
+    specs[CRV__SPEC_IN_PARTS] = p->parts > 1;
     specs[CRV__SPEC_FALLOFF] = (int32_t)o->falloff;
     specs[CRV__SPEC_DIRECTIONS] = o->directions;
     specs[CRV__SPEC_STEPS] = o->steps;
@@ -73,6 +114,25 @@ static crv_status take_estimate(crv__program *p, const crv__setup *setup, int32_
                               &p->estimate.pipeline);
 }
 
+/* box4 takes taps whole or not at all, which the error of a half float would turn over:
+ * 1.8 % of the pixels of a noisy frame differed by more than 2e-3. */
+static int has_half(const crv__filter *filter)
+{
+    return strcmp(filter->info.name, "box4") != 0;
+}
+
+/*
+ * Angles that half floats tell apart: an error of 2^-12 in each normal changes 1 - cos of
+ * an angle by a share of 2^-10 over the angle. half.glsl leaves out surfaces without a
+ * normal, which angles beyond 90 degrees let in; at 180 normals do not count.
+ */
+static int uses_half(const crv__program *p, const crv__setup *setup)
+{
+    const float least_deg = 10, most_deg = 90, angle = setup->options.filter_normal;
+    return p->desc.half && p->device->has_half && has_half(setup->filter)
+           && ((angle >= least_deg && angle <= most_deg) || angle >= 180);
+}
+
 static crv_status take_filter(crv__program *p, const crv__setup *setup, int32_t group,
                               int32_t pass)
 {
@@ -80,8 +140,12 @@ static crv_status take_filter(crv__program *p, const crv__setup *setup, int32_t 
     clear_specs(&p->filter[pass], group, specs);
     specs[CRV__SPEC_FILTER_SLOPE] = setup->options.filter_slope;
     specs[CRV__SPEC_FILTER_PASS] = pass;
-    return crv__pipeline_take(p->device, setup->filter->info.name, specs,
-                              &p->filter[pass].pipeline);
+    char name[32];
+    snprintf(name, sizeof name, "%s%s", setup->filter->info.name,
+             uses_half(p, setup) ? "_half" : "");
+    if (uses_half(p, setup)) /* lane_step() of the shaders */
+        *(pass == 0 ? &p->filter[pass].lanes_y : &p->filter[pass].lanes_x) = 2;
+    return crv__pipeline_take(p->device, name, specs, &p->filter[pass].pipeline);
 }
 
 static crv_status take_other(crv__program *p, const char *shader, int32_t group,
@@ -99,6 +163,16 @@ static int32_t filter_group(const crv__device *d)
     return d->properties.limits.maxComputeWorkGroupInvocations >= 256 ? 16 : 8;
 }
 
+double crv__filter_fetches(const crv__program *p, const crv__setup *setup)
+{
+    const double group = filter_group(p->device);
+    const char *name = setup->filter->info.name;
+    if (p->passes == 2)
+        return 3 * (group + 12) / group; /* bilateral13: six more on either side */
+    const double window = strcmp(name, "box4") == 0 ? 3 : 4;
+    return 3 * (group + window) * (group + window) / (group * group);
+}
+
 static crv_status take_pipelines(crv__program *p, const crv__setup *setup)
 {
     enum { GROUP = 8 };
@@ -106,9 +180,9 @@ static crv_status take_pipelines(crv__program *p, const crv__setup *setup)
     for (int32_t i = 0; status == CRV_OK && i < p->passes; i++)
         status = take_filter(p, setup, filter_group(p->device), i);
     if (status == CRV_OK && p->desc.converts)
+        status = take_other(p, "convert", GROUP, 1, &p->convert);
+    if (status == CRV_OK && p->desc.converts && setup->desc.layers > 1)
         status = take_other(p, "depth_convert", GROUP, 1, &p->depth);
-    if (status == CRV_OK && p->desc.converts)
-        status = take_other(p, "normals_convert", GROUP, 1, &p->normals);
     if (status == CRV_OK && p->desc.edge > 1)
         status = take_other(p, "deinterleave", GROUP, p->desc.edge, &p->deinterleave);
     if (status == CRV_OK && p->desc.level_px > 0)
@@ -151,8 +225,11 @@ static crv_status create_constants(crv__program *p, const crv__setup *setup)
 crv_status crv__program_create(crv__program *p, const crv__device *device,
                                const crv__setup *setup, const crv__program_desc *desc)
 {
+    const int32_t size = part_size(setup);
     *p = (crv__program){.device = device,
                         .desc = *desc,
+                        .parts = (unit_count(setup) + size - 1) / size,
+                        .part_size = size,
                         .passes = setup->filter ? setup->filter->passes : 0};
     const crv_status status = create_constants(p, setup);
     return status ? status : take_pipelines(p, setup);
@@ -163,7 +240,7 @@ void crv__program_destroy(crv__program *p)
     const crv__device *d = p->device;
     if (!d)
         return;
-    const VkPipeline pipelines[] = {p->depth.pipeline,     p->normals.pipeline,
+    const VkPipeline pipelines[] = {p->convert.pipeline,   p->depth.pipeline,
                                     p->estimate.pipeline,  p->filter[0].pipeline,
                                     p->filter[1].pipeline, p->deinterleave.pipeline,
                                     p->prefilter.pipeline};

@@ -67,8 +67,13 @@ void crv__slot_record_begin(crv__slot *s, VkCommandBuffer commands)
         VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
         VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT
             | VK_ACCESS_2_TRANSFER_WRITE_BIT};
-    const VkImage images[] = {s->depth.image, s->normals.image, s->accessibility[0].image,
-                              s->accessibility[1].image, s->apart.image};
+    const VkImage images[] = {s->depth.image,
+                              s->normals.image,
+                              s->accessibility[0].image,
+                              s->accessibility[1].image,
+                              s->apart.image,
+                              s->sums[0].image,
+                              s->sums[1].image};
     enum { IMAGES = sizeof images / sizeof images[0] };
     VkImageMemoryBarrier2 barriers[IMAGES];
     uint32_t count = 0;
@@ -96,13 +101,70 @@ void crv__slot_record_step(crv__slot *s, VkCommandBuffer commands,
     const crv__program *p = s->program;
     const crv__device *d = p->device;
     const int32_t step = pipeline->interleave, tile = pipeline->group * step;
+    const int32_t tile_x = tile * pipeline->lanes_x, tile_y = tile * pipeline->lanes_y;
     d->vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
     d->vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
                                 d->pipelines->layout, 0, 1, &set, 0, NULL);
     d->vk.CmdPushConstants(commands, d->pipelines->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                            sizeof *push, push);
-    d->vk.CmdDispatch(commands, (uint32_t)((push->out_width + tile - 1) / tile * step),
-                      (uint32_t)((push->out_height + tile - 1) / tile * step), 1);
+    d->vk.CmdDispatch(commands,
+                      (uint32_t)((push->out_width + tile_x - 1) / tile_x * step),
+                      (uint32_t)((push->out_height + tile_y - 1) / tile_y * step), 1);
+}
+
+void crv__push_out(crv__push *push, crv__rectangle r)
+{
+    push->out_x = r.x;
+    push->out_y = r.y;
+    push->out_width = r.width;
+    push->out_height = r.height;
+}
+
+void crv__record_between(const crv__device *d, VkCommandBuffer commands)
+{
+    crv__record_barrier(
+        d, commands, CRV__WRITTEN,
+        (crv__access){CRV__SAMPLED.stages, CRV__SAMPLED.access | CRV__WRITTEN.access});
+}
+
+void crv__slot_record_layouts(crv__slot *s, VkCommandBuffer commands, crv__push *push)
+{
+    const crv__program *p = s->program;
+    const crv__image_desc *depth = &s->depth.desc;
+    if (p->deinterleave.pipeline) {
+        crv__push_out(push, (crv__rectangle){0, 0, depth->width, depth->height});
+        crv__slot_record_step(s, commands, &p->deinterleave, s->apart_set, push);
+        crv__slot_record_time(s, commands);
+    }
+    if (!p->prefilter.pipeline)
+        return;
+    for (push->layer = 0; push->layer < depth->layers; push->layer++) {
+        for (push->pass = 1; push->pass < depth->levels; push->pass++) {
+            crv__push_out(push, (crv__rectangle){0, 0, depth->width >> push->pass,
+                                                 depth->height >> push->pass});
+            crv__slot_record_step(s, commands, &p->prefilter,
+                                  s->level_set[push->layer][push->pass], push);
+        }
+    }
+    push->layer = push->pass = 0;
+    crv__slot_record_time(s, commands);
+}
+
+void crv__slot_record_estimate(crv__slot *s, VkCommandBuffer commands, crv__push *push)
+{
+    const crv__program *p = s->program;
+    const crv__access next = {CRV__SAMPLED.stages,
+                              CRV__SAMPLED.access | CRV__WRITTEN.access};
+    for (int32_t i = 0; i < p->parts; i++) {
+        push->part_begin = i * p->part_size;
+        push->part_end = push->part_begin + p->part_size;
+        push->is_last_part = i + 1 == p->parts;
+        if (i > 0)
+            crv__record_barrier(p->device, commands, CRV__WRITTEN, next);
+        crv__slot_record_step(s, commands, &p->estimate,
+                              push->is_last_part ? s->estimate_set : s->part_set[i % 2],
+                              push);
+    }
 }
 
 void crv__slot_record_time(crv__slot *s, VkCommandBuffer commands)

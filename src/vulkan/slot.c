@@ -5,12 +5,6 @@
 
 /* ---- descriptors ---- */
 
-static VkDescriptorType type_of(uint32_t binding)
-{
-    return binding == CRV__BIND_OUTPUT ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
-                                       : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-}
-
 void crv__bind_image(const crv__program *p, VkDescriptorSet set, uint32_t binding,
                      VkImageView view, VkImageLayout layout)
 {
@@ -20,7 +14,7 @@ void crv__bind_image(const crv__program *p, VkDescriptorSet set, uint32_t bindin
                                         .dstSet = set,
                                         .dstBinding = binding,
                                         .descriptorCount = 1,
-                                        .descriptorType = type_of(binding),
+                                        .descriptorType = crv__binding_type(binding),
                                         .pImageInfo = &image};
     d->vk.UpdateDescriptorSets(d->device, 1, &write, 0, NULL);
 }
@@ -36,25 +30,31 @@ static void bind_all(crv__slot *s, VkDescriptorSet set, VkImageView input,
     buffers[CRV__BIND_PARAMS] =
         (VkDescriptorBufferInfo){s->params.buffer, 0, sizeof(crv__params)};
     for (uint32_t i = 0; i < CRV__BIND_DEPTH; i++)
-        writes[i] = (VkWriteDescriptorSet){
-            .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-            .dstSet = set,
-            .dstBinding = i,
-            .descriptorCount = 1,
-            .descriptorType = i == CRV__BIND_PARAMS ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
-                                                    : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-            .pBufferInfo = &buffers[i]};
+        writes[i] =
+            (VkWriteDescriptorSet){.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                   .dstSet = set,
+                                   .dstBinding = i,
+                                   .descriptorCount = 1,
+                                   .descriptorType = crv__binding_type(i),
+                                   .pBufferInfo = &buffers[i]};
     d->vk.UpdateDescriptorSets(d->device, CRV__BIND_DEPTH, writes, 0, NULL);
     const VkImageView views[CRV__BINDINGS] = {[CRV__BIND_DEPTH] = s->depth.view,
                                               [CRV__BIND_NORMALS] = s->normals.view,
                                               [CRV__BIND_INPUT] = input,
                                               [CRV__BIND_OUTPUT] = output,
-                                              [CRV__BIND_HOST] = s->normals.view};
+                                              [CRV__BIND_HOST_DEPTH] = s->normals.view,
+                                              [CRV__BIND_HOST_NORMALS] = s->normals.view,
+                                              [CRV__BIND_NORMALS_OUTPUT] =
+                                                  s->normals.view};
     for (uint32_t i = CRV__BIND_DEPTH; i < CRV__BINDINGS; i++)
         crv__bind_image(s->program, set, i, views[i], VK_IMAGE_LAYOUT_GENERAL);
 }
 
-enum { SETS = CRV_MAX_LAYERS + 3 + CRV__MOST_PASSES + CRV_MAX_LAYERS * CRV__MOST_LEVELS };
+enum {
+    PARTS_FROM = CRV_MAX_LAYERS + 2 + CRV__MOST_PASSES,
+    LEVELS_FROM = PARTS_FROM + 2,
+    SETS = LEVELS_FROM + CRV_MAX_LAYERS * CRV__MOST_LEVELS
+};
 
 static VkResult create_sets(crv__slot *s)
 {
@@ -62,8 +62,8 @@ static VkResult create_sets(crv__slot *s)
     const VkDescriptorPoolSize sizes[] = {
         {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, SETS},
         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, SETS * 3},
-        {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, SETS},
-        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, SETS * 4}};
+        {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, SETS * 2},
+        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, SETS * 5}};
     const VkDescriptorPoolCreateInfo pool = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
         .maxSets = SETS,
@@ -86,13 +86,30 @@ static VkResult create_sets(crv__slot *s)
     if (result)
         return result;
     memcpy(s->depth_set, sets, sizeof s->depth_set);
-    s->normals_set = sets[CRV_MAX_LAYERS];
-    s->estimate_set = sets[CRV_MAX_LAYERS + 1];
-    s->apart_set = sets[CRV_MAX_LAYERS + 2];
-    memcpy(s->filter_set, sets + CRV_MAX_LAYERS + 3, sizeof s->filter_set);
-    memcpy(s->level_set, sets + CRV_MAX_LAYERS + 3 + CRV__MOST_PASSES,
-           sizeof s->level_set);
+    s->estimate_set = sets[CRV_MAX_LAYERS];
+    s->apart_set = sets[CRV_MAX_LAYERS + 1];
+    memcpy(s->filter_set, sets + CRV_MAX_LAYERS + 2, sizeof s->filter_set);
+    memcpy(s->part_set, sets + PARTS_FROM, sizeof s->part_set);
+    memcpy(s->level_set, sets + LEVELS_FROM, sizeof s->level_set);
     return VK_SUCCESS;
+}
+
+/* The sets of an estimate: one, or two that hand sums to and fro and one that ends. */
+static void bind_estimate(crv__slot *s, VkImageView accessibility, VkImageView unused)
+{
+    const int32_t parts = s->program->parts;
+    const VkImageView depth = s->apart.image ? s->apart.view
+                              : s->depth.all ? s->depth.all
+                                             : s->depth.view;
+    const VkImageView sums[2] = {s->sums[0].view, s->sums[1].view};
+    bind_all(s, s->estimate_set, parts > 1 ? sums[parts % 2] : unused, accessibility);
+    crv__bind_image(s->program, s->estimate_set, CRV__BIND_DEPTH, depth,
+                    VK_IMAGE_LAYOUT_GENERAL);
+    for (int i = 0; parts > 1 && i < 2; i++) {
+        bind_all(s, s->part_set[i], sums[1 - i], sums[i]);
+        crv__bind_image(s->program, s->part_set[i], CRV__BIND_DEPTH, depth,
+                        VK_IMAGE_LAYOUT_GENERAL);
+    }
 }
 
 static void bind_sets(crv__slot *s)
@@ -105,18 +122,11 @@ static void bind_sets(crv__slot *s)
         for (int32_t m = 1; m < s->depth.desc.levels; m++)
             bind_all(s, s->level_set[i][m], first, s->depth.part[i][m]);
     }
-    bind_all(s, s->normals_set, first, s->normals.view);
-    bind_all(s, s->estimate_set, second, first);
+    bind_estimate(s, first, second);
     bind_all(s, s->filter_set[0], first, second);
     bind_all(s, s->filter_set[1], second, first);
-    if (s->depth.all)
-        crv__bind_image(s->program, s->estimate_set, CRV__BIND_DEPTH, s->depth.all,
-                        VK_IMAGE_LAYOUT_GENERAL);
-    if (!s->apart.image)
-        return;
-    bind_all(s, s->apart_set, first, s->apart.view);
-    crv__bind_image(s->program, s->estimate_set, CRV__BIND_DEPTH, s->apart.view,
-                    VK_IMAGE_LAYOUT_GENERAL);
+    if (s->apart.image)
+        bind_all(s, s->apart_set, first, s->apart.view);
 }
 
 /* ---- life ---- */
@@ -155,7 +165,9 @@ static crv_status create_images(crv__slot *s, const crv__setup *setup,
                                            s->rectangle.height, 0, 1},
                           apart = {VK_FORMAT_R32_SFLOAT, (g->width + edge - 1) / edge,
                                    (g->height + edge - 1) / edge, g->layers * edge * edge,
-                                   1};
+                                   1},
+                          sums = {VK_FORMAT_R32G32_SFLOAT, s->rectangle.width,
+                                  s->rectangle.height, 0, 1};
     crv_status status = crv__image_create(&s->depth, p->device, &depth);
     if (status == CRV_OK)
         status = crv__image_create(&s->normals, p->device, &normals);
@@ -163,6 +175,8 @@ static crv_status create_images(crv__slot *s, const crv__setup *setup,
         status = crv__image_create(&s->accessibility[i], p->device, &accessibility);
     if (status == CRV_OK && edge > 1)
         status = crv__image_create(&s->apart, p->device, &apart);
+    for (int i = 0; status == CRV_OK && i < (p->parts > 1 ? 2 : 0); i++)
+        status = crv__image_create(&s->sums[i], p->device, &sums);
     return status;
 }
 
@@ -193,6 +207,8 @@ void crv__slot_destroy(crv__slot *s)
     const crv__device *d = s->program->device;
     d->vk.DestroyQueryPool(d->device, s->queries, d->callbacks);
     d->vk.DestroyDescriptorPool(d->device, s->pool, d->callbacks);
+    crv__image_destroy(&s->sums[1], d);
+    crv__image_destroy(&s->sums[0], d);
     crv__image_destroy(&s->apart, d);
     crv__image_destroy(&s->accessibility[1], d);
     crv__image_destroy(&s->accessibility[0], d);
@@ -205,5 +221,5 @@ void crv__slot_destroy(crv__slot *s)
 uint64_t crv__slot_bytes(const crv__slot *s)
 {
     return s->params.size + s->depth.size + s->normals.size + s->accessibility[0].size
-           + s->accessibility[1].size + s->apart.size;
+           + s->accessibility[1].size + s->apart.size + s->sums[0].size + s->sums[1].size;
 }

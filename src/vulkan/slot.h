@@ -14,12 +14,13 @@ typedef struct crv__slot {
     crv__rectangle rectangle; /* of the accessibility images */
     crv__buffer params;
     crv__image depth, normals, accessibility[2];
-    crv__image apart; /* depth taken apart, where the program says so */
+    crv__image apart;   /* depth taken apart, where the program says so */
+    crv__image sums[2]; /* of the estimate's parts, where there are several */
     VkDescriptorPool pool;
-    /* Converts; the estimate, into accessibility[0]; filter passes, to and fro. */
-    VkDescriptorSet depth_set[CRV_MAX_LAYERS], normals_set, estimate_set,
-        filter_set[CRV__MOST_PASSES], apart_set,
-        level_set[CRV_MAX_LAYERS][CRV__MOST_LEVELS];
+    /* Converts, the first layer with the normals; the estimate, into accessibility[0];
+     * filter passes, to and fro. */
+    VkDescriptorSet depth_set[CRV_MAX_LAYERS], estimate_set, filter_set[CRV__MOST_PASSES],
+        apart_set, part_set[2], level_set[CRV_MAX_LAYERS][CRV__MOST_LEVELS];
     VkQueryPool queries; /* VK_NULL_HANDLE: none */
     int32_t query_count;
 } crv__slot;
@@ -66,8 +67,21 @@ void crv__slot_record_step(crv__slot *s, VkCommandBuffer commands,
                            const crv__pipeline *pipeline, VkDescriptorSet set,
                            const crv__push *push);
 
-/* Milliseconds of the steps whose times were noted since the beginning; NOT_READY while
- * they are executed. */
+/* What the next dispatch writes. */
+void crv__push_out(crv__push *push, crv__rectangle r);
+
+/* What was written is read next, and images that were read are written. */
+void crv__record_between(const crv__device *d, VkCommandBuffer commands);
+
+/* Other layouts of depth, where the program has any: each a step with its time. None
+ * waits for another. */
+void crv__slot_record_layouts(crv__slot *s, VkCommandBuffer commands, crv__push *push);
+
+/* The estimate, in as many dispatches as the program says; fills the push's part. */
+void crv__slot_record_estimate(crv__slot *s, VkCommandBuffer commands, crv__push *push);
+
+/* Milliseconds of the steps whose times were noted since the beginning; NOT_READY, not
+ * logged, while they are executed. */
 crv_status crv__slot_times(const crv__slot *s, double times_ms[CRV__MOST_STEPS]);
 
 /* Notes the time at which all before is done. */

@@ -82,6 +82,9 @@ typedef struct common_settings {
     const char *device; /* as written; NULL: the CPU */
     arg_int isa;        /* index of args_device's choices */
     bool exact;
+    /* Of plans on a GPU: what `crevice bench` compares. */
+    crv_depth_layout depth_layout;
+    bool half_filters;
     crv_options options; /* commands with library_options only */
     bool radius_given;
 } common_settings;

@@ -21,7 +21,7 @@ static const struct {
     {"methods", bench_methods_section}, {"passes", bench_passes_section},
     {"memory", bench_memory_section},   {"growth", bench_growth_section},
     {"embree", bench_embree_section},   {"whole", bench_whole_section},
-    {"device", bench_device_section},
+    {"device", bench_device_section},   {"fetches", bench_fetch_section},
 };
 enum { SECTION_COUNT = sizeof sections / sizeof sections[0] };
 
@@ -115,6 +115,19 @@ static const arg choice_rows[] = {
      .offset = offsetof(bench_settings, threads),
      .computed = "--threads",
      .help = "numbers of threads"},
+    {.name = "--layouts",
+     .value = "LIST",
+     .type = ARG_TEXTS,
+     .offset = offsetof(bench_settings, layouts),
+     .computed = "plain",
+     .help = "on a GPU, how depth lies in its memory: plain; apart, by the phases of the "
+             "noise tile; levels, coarser for far samples; or all"},
+    {.name = "--arithmetic",
+     .value = "LIST",
+     .type = ARG_TEXTS,
+     .offset = offsetof(bench_settings, arithmetic),
+     .computed = "single",
+     .help = "on a GPU, single, half or both: whether filters compute in half floats"},
 };
 static const arg_table choice_table =
     ARG_TABLE("What is measured, as lists with commas or flags given again", choice_rows);
@@ -125,9 +138,9 @@ static const arg run_rows[] = {
      .type = ARG_TEXTS,
      .offset = offsetof(bench_settings, only),
      .computed = "methods, passes, memory, whole; device on a GPU",
-     .help =
-         "methods|passes|memory|growth|embree|whole|device, a list, too; device: every "
-         "step of a plan by the GPU's clock, the others by that of the host"},
+     .help = "methods|passes|memory|growth|embree|whole|device|fetches, a list, too; "
+             "device: every step of a plan by the GPU's clock, fetches: by which paths "
+             "it reads depth how fast, the others by the clock of the host"},
     {.name = "--full",
      .type = ARG_FLAG,
      .offset = offsetof(bench_settings, full),
@@ -207,9 +220,13 @@ static int check_sets(const bench_settings *s, const bench_choices *c, report *r
 static int check_device(const bench_settings *s, const bench_choices *c, report *r)
 {
     for (int32_t i = 0; i < c->section_count; i++) {
-        if (strcmp(c->sections[i], "device") == 0 && device_is_cpu(&s->common)) {
-            report_error(r, "--only device: times the steps of a GPU; give --device "
-                            "vulkan, too");
+        const char *name = c->sections[i];
+        if ((strcmp(name, "device") == 0 || strcmp(name, "fetches") == 0)
+            && device_is_cpu(&s->common)) {
+            report_error(r,
+                         "--only %s: is of a GPU's own clock; give --device vulkan, "
+                         "too",
+                         name);
             return EXIT_USAGE;
         }
     }
@@ -264,6 +281,8 @@ static void describe_command(const bench_settings *s, text *out)
     add_texts(out, "--isas", &s->isas);
     add_texts(out, "--structures", &s->structures);
     add_texts(out, "--threads-list", &s->threads);
+    add_texts(out, "--layouts", &s->layouts);
+    add_texts(out, "--arithmetic", &s->arithmetic);
     text_addf(out, " --repeats %d --seconds %g", s->repeats.value, s->seconds.value);
     if (s->common.threads.given)
         text_addf(out, " --threads %d", s->common.threads.value);

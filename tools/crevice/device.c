@@ -106,6 +106,8 @@ int device_context_in(const common_settings *common, const crv_logger *logger,
     desc.logger = *logger;
     desc.threads = common->threads.value;
     desc.exact = common->exact;
+    desc.depth_layout = common->depth_layout;
+    desc.half_filters = common->half_filters;
     if (allocator != NULL)
         desc.allocator = *allocator;
     if (choose_device(common, &desc, r) != EXIT_DONE)

@@ -49,8 +49,8 @@ float accessibility(ivec2 at, float d)
     const vec3 ray = view_ray(unproject(at, d), d), n = normal_at(at);
     const vec2 radius_px = projected_radius(d);
     const int count = sample_count(max(radius_px.x, radius_px.y));
-    float sum = 0;
-    for (int i = 0; i < count; i++) {
+    float sum = sums_before(at).x;
+    for (int i = part_begin(); i < part_end(count); i++) {
         const vec2 disk = turned(noise, pattern[i].xy); /* prefixes are well spread too */
         precise vec2 place = vec2(float(at.x) + 0.5 + disk.x * radius_px.x,
                                   float(at.y) + 0.5 - disk.y * radius_px.y);
@@ -61,6 +61,7 @@ float accessibility(ivec2 at, float d)
             obscurance_of(ray, d, n, image_offset(at, texel), texel, level);
         sum += inside == place ? term : 0; /* beyond is background */
     }
+    keep_sums(at, vec2(sum, 0));
     return 1 - 2 * params.radius * sum / float(count);
 }
 

@@ -15,7 +15,13 @@ const int REACH = 6;
     (gl_WorkGroupSize.x > gl_WorkGroupSize.y ? gl_WorkGroupSize.x : gl_WorkGroupSize.y)
 #define TILE_TEXELS (gl_WorkGroupSize.x * gl_WorkGroupSize.y + 2 * REACH * LONGER_SIDE)
 
+#ifdef HALF_FLOATS
+/* The two pixels of an invocation lie side by side across the pass's axis. */
+ivec2 lane_step();
+#include "half.glsl"
+#else
 #include "tap.glsl"
+#endif
 
 /* exp(-k^2 / (2 sigma^2)), sigma = REACH / 2 */
 const float GAUSS[REACH + 1] = {1.0,        0.94595947, 0.80073740, 0.60653066,
@@ -36,6 +42,27 @@ ivec2 window_after()
     return REACH * axis_of_pass();
 }
 
+#ifdef HALF_FLOATS
+ivec2 lane_step()
+{
+    return ivec2(gl_WorkGroupSize.xy) * (1 - axis_of_pass());
+}
+
+vec2 filtered(int index, int row)
+{
+    const ivec2 axis = axis_of_pass();
+    const Centre centre = centre_at(index, row, axis);
+    f16vec2 sum = f16vec2(0), weights = f16vec2(0);
+    for (int k = -REACH; k <= REACH; k++) {
+        const Taps taps = taps_at(centre, k * axis, 1);
+        const f16vec2 weight =
+            float16_t(GAUSS[abs(k)]) * (f16vec2(1) - taps.deviation) * taps.likeness;
+        sum += weight * taps.value;
+        weights += weight;
+    }
+    return mean_of(centre, sum, weights);
+}
+#else
 float filtered(int index, int row)
 {
     const ivec2 axis = axis_of_pass();
@@ -50,5 +77,6 @@ float filtered(int index, int row)
     }
     return sum / weights; /* the centre weighs 1 */
 }
+#endif
 
 #endif

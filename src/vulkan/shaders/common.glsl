@@ -60,7 +60,9 @@ layout(set = 0, binding = 7) uniform writeonly image2DArray output_image;
 #else
 layout(set = 0, binding = 7) uniform writeonly image2D output_image;
 #endif
-layout(set = 0, binding = 8) uniform sampler2D host_image; /* depth or normals */
+layout(set = 0, binding = 8) uniform sampler2D host_depth; /* of one layer */
+layout(set = 0, binding = 9) uniform sampler2D host_normals;
+layout(set = 0, binding = 10) uniform writeonly image2D normal_output;
 
 layout(push_constant) uniform Push
 {

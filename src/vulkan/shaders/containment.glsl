@@ -32,14 +32,16 @@ float accessibility(ivec2 at, float d)
     const vec3 n = normal_at(at), start = lifted(unproject(at, d), n);
     vec3 tangent, bitangent;
     tangents_of(n, tangent, bitangent);
-    float sum = falloff_kind() == FALLOFF_ALCHEMY ? 1 : 0;
-    for (int i = 0; i < pattern_count(); i++) {
+    const float first = falloff_kind() == FALLOFF_ALCHEMY ? 1 : 0;
+    float sum = part_begin() > 0 ? sums_before(at).x : first;
+    for (int i = part_begin(); i < part_end(pattern_count()); i++) {
         const vec4 point = pattern[i]; /* r_i * direction in radii, and its weight */
         const vec2 disk = turned(noise, point.xy);
         precise vec3 offset = disk.x * tangent + disk.y * bitangent + point.z * n;
         if (is_free(start, offset, noise.beta))
             sum += point.w;
     }
+    keep_sums(at, vec2(sum, 0));
     return sum;
 }
 

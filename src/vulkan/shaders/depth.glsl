@@ -48,8 +48,10 @@ float decoded_depth(ivec2 at, float v)
     return encoding == DEPTH_RADIAL ? planar_of_radial(at, v) : v;
 }
 
-float planar_depth(ivec2 at, float v)
+/* Of the host's image. */
+float planar_depth(ivec2 at)
 {
+    const float v = texelFetch(host_depth, at, 0).r;
     if (is_nan(v))
         return INFINITY;
     const float d = decoded_depth(at, v);

@@ -4,10 +4,10 @@
 
 #include "depth.glsl"
 
-/* The host's depth to planar depth. */
+/* A depth layer of the host's to planar depth; convert.comp does the first one. */
 void main()
 {
     const ivec2 at = pixel_of_invocation();
     if (in_output(at))
-        write_output(at, vec4(planar_depth(at, texelFetch(host_image, at, 0).r)));
+        write_output(at, vec4(planar_depth(at)));
 }

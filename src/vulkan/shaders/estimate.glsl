@@ -4,7 +4,7 @@
 #ifndef ESTIMATE_GLSL
 #define ESTIMATE_GLSL
 
-#include "common.glsl"
+#include "part.glsl"
 
 /* max(0, 1 - intensity (1 - A))^contrast, at most 1 */
 float finished(float a)
@@ -21,7 +21,8 @@ void main()
         return;
     const float d = depth_at(at, 0);
     const float a = is_surface(d) ? accessibility(at, d) : 1;
-    write_output(at, vec4(finished(a)));
+    if (is_last_part())
+        write_output(at, vec4(finished(a)));
 }
 
 #endif

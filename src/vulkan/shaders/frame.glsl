@@ -8,6 +8,7 @@
 #define FRAME_GLSL
 
 #include "common.glsl"
+#include "part.glsl"
 
 /* The depth by which an offset on the image plane at depth 1 grows; 1 where rays are
  * parallel. */

@@ -112,12 +112,13 @@ float accessibility(ivec2 at, float d)
     const vec3 ray = view_ray(unproject(at, d), d), n = normal_at(at);
     const Shaded s = Shaded(d, ray, n, -dot(n, ray));
     const vec2 radius_px = sampled_radius(d);
-    float occlusion = 0;
-    for (int k = 0; k < direction_count(); k++) {
+    float occlusion = sums_before(at).x;
+    for (int k = part_begin(); k < part_end(direction_count()); k++) {
         const vec2 direction = direction_at(noise, k);
         precise vec2 reach = vec2(direction.x * radius_px.x, -direction.y * radius_px.y);
         occlusion += slice_occlusion(s, at, reach, noise.beta);
     }
+    keep_sums(at, vec2(occlusion, 0));
     return 1 - occlusion / float(direction_count());
 }
 

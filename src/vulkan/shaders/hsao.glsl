@@ -78,14 +78,15 @@ float accessibility(ivec2 at, float d)
     const vec3 n = normal_at(at), origin = lifted(unproject(at, d), n);
     vec3 tangent, bitangent;
     tangents_of(n, tangent, bitangent);
-    float occlusion = 0;
-    for (int i = 0; i < direction_count(); i++) {
+    float occlusion = sums_before(at).x;
+    for (int i = part_begin(); i < part_end(direction_count()); i++) {
         const vec3 t = slice_tangent(noise, i, tangent, bitangent);
         const Horizon h = traced_horizon(origin, n, t, noise.beta);
         occlusion +=
             h.occlusion
             + normal_occlusion(origin, n, t, h.height, stratum_at(noise, i), noise.beta);
     }
+    keep_sums(at, vec2(occlusion, 0));
     return 1 - occlusion / float(direction_count());
 }
 

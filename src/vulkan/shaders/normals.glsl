@@ -4,11 +4,40 @@
 #ifndef NORMALS_GLSL
 #define NORMALS_GLSL
 
+#include "depth.glsl"
 #include "frame.glsl"
 
 /* crv_vulkan_normals (crevice/vulkan.h) */
 const int NORMAL_NONE = 0, NORMAL_XYZ = 1, NORMAL_XYZ_HALVED = 2, NORMAL_OCT = 3,
           NORMAL_OCT_HALVED = 4;
+
+/* The planar depth of the workgroup's pixels and of those around them. */
+#define TILE_ROW (gl_WorkGroupSize.x + 2)
+shared float tile_depth[TILE_ROW * (gl_WorkGroupSize.y + 2)];
+
+ivec2 tile_first()
+{
+    return ivec2(push.out_x, push.out_y)
+           + ivec2(gl_WorkGroupID.xy * gl_WorkGroupSize.xy) - 1;
+}
+
+/* Every invocation of the workgroup takes part. */
+void take_tile()
+{
+    const ivec2 last = ivec2(params.width - 1, params.height - 1), first = tile_first();
+    const uint step = gl_WorkGroupSize.x * gl_WorkGroupSize.y;
+    for (uint i = gl_LocalInvocationIndex; i < tile_depth.length(); i += step) {
+        const ivec2 at = first + ivec2(i % TILE_ROW, i / TILE_ROW);
+        tile_depth[i] = planar_depth(clamp(at, ivec2(0), last));
+    }
+    barrier();
+}
+
+float depth_in_tile(ivec2 at)
+{
+    const ivec2 place = at - tile_first();
+    return tile_depth[place.y * int(TILE_ROW) + place.x];
+}
 
 /* Zero where the length is zero, infinite or NaN. Scaled first: squares of small scenes'
  * lengths underflow. */
@@ -51,7 +80,7 @@ vec3 edge_along(ivec2 at, ivec2 step, float d)
         const ivec2 neighbour = at + side * step;
         if (!in_buffers(neighbour))
             continue;
-        const float depth = depth_at(neighbour, 0);
+        const float depth = depth_in_tile(neighbour);
         const float difference = abs(depth - d);
         if (is_surface(depth) && difference < best) {
             best = difference;
@@ -95,7 +124,7 @@ vec3 final_normal(ivec2 at, float d)
 {
     vec3 n = vec3(0);
     if (push.normal_encoding != NORMAL_NONE)
-        n = normalized(decoded_normal(texelFetch(host_image, at, 0)));
+        n = normalized(decoded_normal(texelFetch(host_normals, at, 0)));
     if (n == vec3(0))
         n = normal_from_depth(at, d);
     return facing_camera(at, d, n);

@@ -16,14 +16,15 @@ float accessibility(ivec2 at, float d)
     vec3 tangent, bitangent;
     tangents_of(n, tangent, bitangent);
     const int rays = max(normal_ray_count(), 1);
-    float occlusion = 0;
-    for (int i = 0; i < direction_count(); i++) {
+    float occlusion = sums_before(at).x;
+    for (int i = part_begin(); i < part_end(direction_count()); i++) {
         const vec3 t = slice_tangent(noise, i, tangent, bitangent);
         for (int k = 0; k < rays; k++) {
             precise float z2 = (float(k) + stratum_at(noise, i)) / float(rays);
             occlusion += marched(origin, raised(n, t, z2), noise.beta);
         }
     }
+    keep_sums(at, vec2(occlusion, 0));
     return 1 - occlusion / float(direction_count() * rays);
 }
 

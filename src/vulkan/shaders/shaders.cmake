@@ -12,8 +12,8 @@ set(crevice_shader_dir ${CMAKE_CURRENT_LIST_DIR})
 set(CREVICE_SHADER_INCLUDE_DIR ${CMAKE_CURRENT_BINARY_DIR}/shaders)
 set(CREVICE_SHADERS
     hbao hsao raymarch alchemy vo containment vao ssao
-    bilateral13 box4 gauss5
-    depth_convert normals_convert deinterleave prefilter)
+    bilateral13 box4 gauss5 bilateral13_half gauss5_half
+    convert depth_convert deinterleave prefilter fetch)
 # Only 1.3 devices are used, but SPIR-V 1.6 would ask them for maintenance4.
 set(CREVICE_SHADER_TARGET vulkan1.2)
 

@@ -16,13 +16,14 @@ float accessibility(ivec2 at, float d)
 {
     const crv__noise_texel noise = noise_at(at);
     const vec3 P = unproject(at, d);
-    int outside = 0;
-    for (int i = 0; i < pattern_count(); i++) {
+    float outside = sums_before(at).x;
+    for (int i = part_begin(); i < part_end(pattern_count()); i++) {
         const vec2 disk = turned(noise, pattern[i].xy);
         precise vec3 q = P + vec3(disk, pattern[i].z) * params.radius;
         outside += is_outside_depth(q, INFINITY) ? 1 : 0;
     }
-    const float share = float(outside) / float(pattern_count());
+    keep_sums(at, vec2(outside, 0));
+    const float share = outside / float(pattern_count());
     return params.rescale != 0 ? min(1, 2 * share) : share;
 }
 

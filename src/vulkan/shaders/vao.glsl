@@ -31,14 +31,16 @@ float accessibility(ivec2 at, float d)
     const vec3 P = unproject(at, d), n = normal_at(at);
     const float radius = 0.5 * params.radius;
     const vec3 offset = n * radius;
-    float open = 0, chords = 0;
-    for (int i = 0; i < pattern_count(); i++) {
+    const vec2 before = sums_before(at);
+    float open = before.x, chords = before.y;
+    for (int i = part_begin(); i < part_end(pattern_count()); i++) {
         Pipe pipe;
         if (!pipe_through(at, P, offset, radius, pattern[i].xy, noise, pipe))
             continue;
         open += outside_of(pipe, d);
         chords += pipe.exit_z - pipe.entry_z;
     }
+    keep_sums(at, vec2(open, chords));
     if (params.normaliser == NORMALISER_ANALYTIC)
         return open / (2.0 / 3.0 * params.radius * float(pattern_count()));
     return chords > 0 ? open / chords : 1;

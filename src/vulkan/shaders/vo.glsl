@@ -47,8 +47,9 @@ float accessibility(ivec2 at, float d)
      */
     if (!(max(radius_px.x, radius_px.y) < 1e9))
         return 1;
-    float open = 0, total = 0;
-    for (int i = 0; i < pattern_count(); i++) {
+    const vec2 before = sums_before(at);
+    float open = before.x, total = before.y;
+    for (int i = part_begin(); i < part_end(pattern_count()); i++) {
         const vec2 disk = turned(noise, pattern[i].xy);
         precise vec2 place = disk * radius_px;
         const ivec2 step = ivec2(int(roundEven(place.x)), -int(roundEven(place.y)));
@@ -61,6 +62,7 @@ float accessibility(ivec2 at, float d)
         open += open_length(at + step, d, half_chord);
         total += 2 * half_chord;
     }
+    keep_sums(at, vec2(open, total));
     return total > 0 ? min(1, 2 * open / total) : 1;
 }
 

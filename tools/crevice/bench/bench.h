@@ -19,7 +19,8 @@ enum { BENCH_CHOICES_MAX = 32 };
 
 typedef struct bench_settings {
     common_settings common;
-    arg_texts inputs, methods, presets, filters, isas, structures, threads, sizes, radii;
+    arg_texts inputs, methods, presets, filters, isas, structures, threads, sizes, radii,
+        layouts, arithmetic;
     arg_texts views_named, sets, only;
     const char *views, *json;
     arg_int repeats;
@@ -31,6 +32,7 @@ typedef struct bench_settings {
 typedef struct bench_choices {
     int32_t method_count, preset_count, filter_count, isa_count, structure_count;
     int32_t thread_count, size_count, radius_count, section_count;
+    int32_t layout_count, arithmetic_count;
     const crv_method *methods[BENCH_CHOICES_MAX];
     crv_preset presets[BENCH_CHOICES_MAX];
     /* NULL in filters: none; use_preset_filter: whatever the preset brings. */
@@ -43,6 +45,9 @@ typedef struct bench_choices {
     int32_t threads[BENCH_CHOICES_MAX];
     arg_size sizes[BENCH_CHOICES_MAX];
     double radii[BENCH_CHOICES_MAX]; /* factors of the frame's own radius */
+    /* Of a GPU only: how depth lies, and whether filters compute in half floats. */
+    crv_depth_layout layouts[BENCH_CHOICES_MAX];
+    bool half[BENCH_CHOICES_MAX];
     const char *sections[BENCH_CHOICES_MAX];
     const char *const *all_sections; /* NULL-terminated */
 } bench_choices;
@@ -138,6 +143,9 @@ void bench_progress(bench *b, const char *format, ...) REPORT_PRINTF;
  * than two different x. */
 double bench_exponent(const double *x, const double *y, int32_t count);
 
+/* "plain", "apart", "levels". */
+const char *bench_layout_name(crv_depth_layout layout);
+
 /* The sections. */
 int bench_ceilings_section(bench *b);
 int bench_methods_section(bench *b);
@@ -149,5 +157,6 @@ int bench_embree_section(bench *b);
 int bench_whole_section(bench *b);
 /* Instead of all the others, with --device vulkan. */
 int bench_device_section(bench *b);
+int bench_fetch_section(bench *b);
 
 #endif

@@ -235,6 +235,45 @@ static int take_radius(const list *l, const char *word, bench_choices *c)
     return EXIT_DONE;
 }
 
+static const char *const layout_names[] = {"plain", "apart", "levels"};
+
+const char *bench_layout_name(crv_depth_layout layout)
+{
+    return layout_names[layout];
+}
+
+static int take_layout(const list *l, const char *word, bench_choices *c)
+{
+    const bool all = strcmp(word, "all") == 0;
+    bool found = all;
+
+    for (int i = 0; i < 3; i++) {
+        if (!all && strcmp(word, layout_names[i]) != 0)
+            continue;
+        if (!fits(l, c->layout_count))
+            return EXIT_USAGE;
+        c->layouts[c->layout_count++] = (crv_depth_layout)i;
+        found = true;
+    }
+    return found ? EXIT_DONE : unknown(l, word, layout_names, 3);
+}
+
+static int take_arithmetic(const list *l, const char *word, bench_choices *c)
+{
+    static const char *const names[] = {"single", "half", "both"};
+    const bool both = strcmp(word, "both") == 0;
+
+    if (!both && strcmp(word, names[0]) != 0 && strcmp(word, names[1]) != 0)
+        return unknown(l, word, names, 3);
+    if (!fits(l, c->arithmetic_count + both))
+        return EXIT_USAGE;
+    if (both || strcmp(word, names[0]) == 0)
+        c->half[c->arithmetic_count++] = false;
+    if (both || strcmp(word, names[1]) == 0)
+        c->half[c->arithmetic_count++] = true;
+    return EXIT_DONE;
+}
+
 static int take_section(const list *l, const char *word, bench_choices *c)
 {
     int32_t count = 0;
@@ -259,7 +298,11 @@ static int check_contradictions(const bench_settings *s, report *r)
         plural = "--isas", single = "--device";
     else if (s->structures.count > 0 && !device_is_cpu(&s->common))
         plural = "--structures", single = "--device";
-    else if (s->isas.count > 0 && s->common.isa.given)
+    else if (s->layouts.count + s->arithmetic.count > 0 && device_is_cpu(&s->common)) {
+        report_error(r, "%s: is for a GPU; give --device vulkan, too",
+                     s->layouts.count > 0 ? "--layouts" : "--arithmetic");
+        return EXIT_USAGE;
+    } else if (s->isas.count > 0 && s->common.isa.given)
         plural = "--isas", single = "--isa";
     else if (s->structures.count > 0 && s->common.exact)
         plural = "--structures", single = "--exact";
@@ -312,8 +355,10 @@ int bench_choose(const bench_settings *s, const char *const *section_names,
         {"--threads-list", &s->threads, threads, take_threads},
         {"--sizes", &s->sizes, s->full ? "1920x1080" : "1280x720", take_size},
         {"--radii", &s->radii, "1", take_radius},
+        {"--layouts", &s->layouts, s->full ? "all" : "plain", take_layout},
+        {"--arithmetic", &s->arithmetic, s->full ? "both" : "single", take_arithmetic},
         {"--only", &s->only,
-         !device_is_cpu(&s->common) ? "device"
+         !device_is_cpu(&s->common) ? (s->full ? "fetches,device" : "device")
          : s->full                  ? "methods,passes,memory,growth,embree,whole"
                                     : "methods,passes,memory,whole",
          take_section},

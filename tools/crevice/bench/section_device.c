@@ -46,8 +46,15 @@ static bool is_transfer(const char *step)
     return strcmp(step, "upload") == 0 || strcmp(step, "download") == 0;
 }
 
+/* A context of the device, how its plans work, and what it moves at most. */
+typedef struct device {
+    crv_context *context;
+    const common_settings *how;
+    double bytes_per_s;
+} device;
+
 static void append(bench *b, const bench_case *c, crv_preset preset, double factor,
-                   double bandwidth, steps *s)
+                   const device *d, steps *s)
 {
     const double pixels = (double)c->frame->width * (double)c->frame->height;
 
@@ -62,21 +69,27 @@ static void append(bench *b, const bench_case *c, crv_preset preset, double fact
         cJSON_AddStringToObject(
             row, "filter", c->options.filter != NULL ? c->options.filter->name : "none");
         cJSON_AddNumberToObject(row, "radius_factor", factor);
+        cJSON_AddStringToObject(row, "layout", bench_layout_name(d->how->depth_layout));
+        cJSON_AddStringToObject(row, "arithmetic",
+                                d->how->half_filters ? "half" : "single");
         cJSON_AddStringToObject(row, "step", s->last[i].name);
         cJSON_AddNumberToObject(row, "runs", s->runs);
         study_add_number(row, "ms", ms);
         study_add_number(row, "mpixels_per_s", pixels / ms * 1e-3);
+        study_add_number(row, "bytes", s->last[i].bytes);
+        study_add_number(row, "fetches", s->last[i].fetches);
         study_add_number(row, "gb_per_s", s->last[i].bytes / ms * 1e-6);
+        study_add_number(row, "gfetches_per_s", s->last[i].fetches / ms * 1e-6);
         study_add_number(row, "share_of_bandwidth",
                          is_transfer(s->last[i].name)
                              ? NAN
-                             : s->last[i].bytes / (ms * 1e-3) / bandwidth);
+                             : s->last[i].bytes / (ms * 1e-3) / d->bytes_per_s);
         bench_append(b, "device_steps", row);
     }
 }
 
-static int measure(bench *b, crv_context *context, const bench_case *c, crv_preset preset,
-                   double factor, double bandwidth)
+static int measure(bench *b, const device *d, const bench_case *c, crv_preset preset,
+                   double factor)
 {
     const size_t count = (size_t)c->frame->width * (size_t)c->frame->height;
     float *pixels = malloc(count * sizeof *pixels);
@@ -92,20 +105,20 @@ static int measure(bench *b, crv_context *context, const bench_case *c, crv_pres
                    c->options.filter != NULL ? c->options.filter->name : "no filter",
                    b->settings->common.device);
     if (pixels != NULL
-        && report_ok(b->r, bench_frame_upload(c->frame, context, &gbuffer), "G-buffer")
-        && report_ok(b->r, crv_plan_create(context, &c->options, &c->frame->desc, &plan),
+        && report_ok(b->r, bench_frame_upload(c->frame, d->context, &gbuffer), "G-buffer")
+        && report_ok(b->r,
+                     crv_plan_create(d->context, &c->options, &c->frame->desc, &plan),
                      "plan"))
         result = time_steps(b, plan, gbuffer, &image, &s);
     if (result == EXIT_DONE)
-        append(b, c, preset, factor, bandwidth, &s);
+        append(b, c, preset, factor, d, &s);
     crv_plan_destroy(plan);
     crv_gbuffer_destroy(gbuffer);
     free(pixels);
     return result;
 }
 
-static int run_frame(bench *b, crv_context *context, const bench_frame *frame,
-                     double bandwidth)
+static int run_frame(bench *b, const device *d, const bench_frame *frame)
 {
     const bench_choices *o = b->choices;
     const int32_t cases =
@@ -119,7 +132,7 @@ static int run_frame(bench *b, crv_context *context, const bench_frame *frame,
         bench_case c;
         result = bench_case_make(b, frame, m, p, f, o->radii[k], &c);
         if (result == EXIT_DONE)
-            result = measure(b, context, &c, o->presets[p], o->radii[k], bandwidth);
+            result = measure(b, d, &c, o->presets[p], o->radii[k]);
     }
     return result;
 }
@@ -134,10 +147,13 @@ static void print(const bench *b)
         {"preset", "preset", -1, 0},
         {"filter", "filter", -1, 0},
         {"radius", "radius_factor", 2, 0},
+        {"depth", "layout", -1, 0},
+        {"filter in", "arithmetic", -1, 0},
         {"step", "step", -1, 0},
         {"ms", "ms", 3, 0},
         {"MPix/s", "mpixels_per_s", 1, 0},
         {"GB/s", "gb_per_s", 2, 0},
+        {"10^9 fetches/s", "gfetches_per_s", 2, 0},
         {"of the bandwidth, %", "share_of_bandwidth", 0, 100},
     };
 
@@ -159,15 +175,10 @@ static int measure_bandwidth(bench *b, crv_context *context, double *out)
     return EXIT_DONE;
 }
 
-int bench_device_section(bench *b)
+static int run_frames(bench *b, const device *d)
 {
     const bench_choices *o = b->choices;
-    crv_context *context = NULL;
-    double bandwidth = NAN;
-    int result = device_context(&b->settings->common, &b->r->logger, b->r, &context);
-
-    if (result == EXIT_DONE)
-        result = measure_bandwidth(b, context, &bandwidth);
+    int result = EXIT_DONE;
 
     for (int32_t i = 0; i < b->source_count && result == EXIT_DONE; i++) {
         int32_t sizes = b->sources[i].path != NULL ? 1 : o->size_count;
@@ -178,11 +189,42 @@ int bench_device_section(bench *b)
                 &b->sources[i], o->sizes[s].width, o->sizes[s].height,
                 b->settings->common.threads.value, &b->quiet_logger, b->r, &frame);
             if (result == EXIT_DONE)
-                result = run_frame(b, context, &frame, bandwidth);
+                result = run_frame(b, d, &frame);
             bench_frame_free(&frame);
         }
     }
-    crv_context_destroy(context);
+    return result;
+}
+
+/* Frames with a layout of depth and an arithmetic of filters. *bytes_per_s: NAN until it
+ * has been measured. */
+static int run_way(bench *b, crv_depth_layout layout, bool half, double *bytes_per_s)
+{
+    common_settings how = b->settings->common;
+    device d = {.how = &how};
+    int result;
+
+    how.depth_layout = layout;
+    how.half_filters = half;
+    result = device_context(&how, &b->r->logger, b->r, &d.context);
+    if (result == EXIT_DONE && isnan(*bytes_per_s))
+        result = measure_bandwidth(b, d.context, bytes_per_s);
+    d.bytes_per_s = *bytes_per_s;
+    if (result == EXIT_DONE)
+        result = run_frames(b, &d);
+    crv_context_destroy(d.context);
+    return result;
+}
+
+int bench_device_section(bench *b)
+{
+    const bench_choices *o = b->choices;
+    double bytes_per_s = NAN;
+    int result = EXIT_DONE;
+
+    for (int32_t l = 0; l < o->layout_count; l++)
+        for (int32_t a = 0; a < o->arithmetic_count && result == EXIT_DONE; a++)
+            result = run_way(b, o->layouts[l], o->half[a], &bytes_per_s);
     if (result == EXIT_DONE)
         print(b);
     return result;

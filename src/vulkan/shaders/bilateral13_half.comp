@@ -1,0 +1,7 @@
+/* SPDX-License-Identifier: MIT */
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#define HALF_FLOATS
+#include "bilateral13.glsl"
+#include "filter_half.glsl"

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Estimates in parts. Where a pixel has thousands of samples, one dispatch would keep a
+ * device busy for so long that drivers take it for lost: such estimates are computed by
+ * several dispatches, each of which goes on with the sums of the one before. To lift an
+ * algorithm, begin at 0, end at the count, and leave the sums out.
+ */
+#ifndef PART_GLSL
+#define PART_GLSL
+
+#include "common.glsl"
+
+/* 0: all samples at once. */
+layout(constant_id = 22) const int IN_PARTS = 0;
+
+/* The directions or points of this dispatch. */
+int part_begin()
+{
+    return IN_PARTS != 0 ? push.part_begin : 0;
+}
+
+int part_end(int count)
+{
+    return IN_PARTS != 0 ? min(push.part_end, count) : count;
+}
+
+bool is_last_part()
+{
+    return IN_PARTS == 0 || push.is_last_part != 0;
+}
+
+/* What the parts before have added up; input_image then holds it. */
+vec2 sums_before(ivec2 at)
+{
+    const bool is_first = IN_PARTS == 0 || push.part_begin == 0;
+    return is_first
+               ? vec2(0)
+               : texelFetch(input_image, at - ivec2(push.out_x, push.out_y), 0).rg;
+}
+
+/* Leaves the sums to the next part. */
+void keep_sums(ivec2 at, vec2 sums)
+{
+    if (!is_last_part())
+        write_output(at, vec4(sums, 0, 0));
+}
+
+#endif
