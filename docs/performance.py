@@ -358,6 +358,15 @@ def headlines(parts):
 
 # The page.
 
+GPU_NOT_MEASURED = """\
+Nothing here was measured on a GPU, only what two threads of a processor do; `crevice bench --device vulkan`
+gives the steps of every method there, with their share of the device's measured bandwidth, and
+[gpu.md](gpu.md) the floors that bytes and fetches set. `docs/performance_gpu.py` makes a page of a GPU.
+"""
+GPU_MEASURED = """\
+Nothing here was measured on a GPU, only what threads of a processor do;
+[performance_gpu.md](performance_gpu.md) says what one does.
+"""
 PAGE = """# How fast
 
 Made by `{own_command}`; the numbers are of these runs:
@@ -374,10 +383,7 @@ least; the median is given, and behind +- half the distance between the quartile
 half of `--seconds` is the only one. Samples are the look-ups in the buffers for each pixel. Presets are
 `medium`, {threads}. {cycles}
 
-Nothing here was measured on a GPU, only what two threads of a processor do; `crevice bench --device vulkan`
-gives the steps of every method there, with their share of the device's measured bandwidth, and
-[gpu.md](gpu.md) the floors that bytes and fetches set.
-
+{gpu}
 ## What was wanted
 
 {aims}
@@ -466,6 +472,13 @@ tells how to choose. `docs/performance.py build/gcc/tools/crevice/crevice` makes
 """
 
 
+def gpu_text():
+    """Whether docs/performance_gpu.py has been at work."""
+    there = os.path.exists(os.path.join(os.path.dirname(os.path.abspath(__file__)),
+                                        "performance_gpu.md"))
+    return GPU_MEASURED if there else GPU_NOT_MEASURED
+
+
 def cycles_text(report):
     return {
         "counter": "Cycles are those of the processor's counter, of all threads, waiting included.",
@@ -488,7 +501,7 @@ def write_page(parts, own_command):
         commands="\n".join(parts[p]["command"] for p in PARTS),
         machine=f"{first['processor']}, {threads} thread{'s' * (threads > 1)}",
         version=first["version"], compiler=first["compiler"],
-        repeats=first["repeats"], cycles=cycles_text(first),
+        repeats=first["repeats"], cycles=cycles_text(first), gpu=gpu_text(),
         threads=f"and threads {threads}, where nothing else is said",
         aims=aims(parts), headlines=headlines(parts), ceilings=ceilings(first),
         best=best_isa(first), methods=per_view.rstrip("\n") + "\n",

@@ -71,7 +71,13 @@ for layout, steps in extra.items():
         fetches = [r["fetches"] / (64 * 36) for r in mine if r["step"] in ("hbao", "bilateral13")]
         assert fetches == [66, 5.25, 5.25], fetches
 ' <bench.json || fail "ways to compute"
-good bench --device vulkan --only fetches --json bench.json
+# The page of a GPU, tried on whatever there is.
+python3 "$(dirname "$0")/../docs/performance_gpu.py" "$tool" --brief --size 64x36 --shared "" \
+    -o page.md --json kept 2>stderr.txt || { cat stderr.txt >&2; fail "docs/performance_gpu.py"; }
+for row in '| `hbao` and `bilateral13`, 64x36, ' '| sampled image | ' '| `gauss5` | - | - | half | ' \
+    '| `deinterleave` of `hbao` | 3 | apart | '; do
+    grep -qF "$row" page.md || fail "the page has no $row"
+done
 python3 -c 'import json, sys
 rows = json.load(sys.stdin)["device_fetches"]
 assert len(rows) == 5, rows
@@ -80,7 +86,7 @@ for row in rows:
         has = row["path"] != "shared memory" or pattern in ("row", "near")
         assert (row[pattern] is not None) == has, row
         assert not has or 1e5 < row[pattern] < 1e14, row
-' <bench.json || fail "fetches"
+' <kept/gpu.json || fail "fetches"
 bad 2 '--layouts: is for a GPU' bench --layouts apart
 bad 2 '--layouts: no "apar"; did you mean apart' bench --device vulkan --layouts apar
 bad 2 '--only fetches: ' bench --only fetches

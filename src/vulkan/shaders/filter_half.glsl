@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The main() of every filter in half floats, filter.glsl for two pixels: filtered(index in
- * the tile, its row length) of both. */
+/* The main() of filters in half floats, filter.glsl for two pixels: filtered(index in the
+ * tile, its row length) of both. */
 #ifndef FILTER_HALF_GLSL
 #define FILTER_HALF_GLSL
 
@@ -19,7 +19,8 @@ float result_of(float depth, float x, float a)
 
 void main()
 {
-    const ivec2 group = ivec2(gl_WorkGroupSize.xy), place = ivec2(gl_LocalInvocationID.xy);
+    const ivec2 group = ivec2(gl_WorkGroupSize.xy);
+    const ivec2 place = ivec2(gl_LocalInvocationID.xy);
     const ivec2 first = ivec2(push.out_x, push.out_y)
                         + ivec2(gl_WorkGroupID.xy) * (group + lane_step());
     const ivec2 at = first + place, other = at + lane_step(), before = window_before();

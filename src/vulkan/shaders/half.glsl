@@ -15,8 +15,6 @@
 #ifndef HALF_GLSL
 #define HALF_GLSL
 
-#extension GL_EXT_shader_explicit_arithmetic_types_float16 : require
-
 #include "input.glsl"
 
 /* Normals times sqrt(filter_normal / 2), x y z; accessibility. */
