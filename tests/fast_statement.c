@@ -2,13 +2,13 @@
 /*
  * The scalar statement of the fast structure, written from its description: 16 pixels of
  * a row, every fourth column of a span of 64, share a few buckets of projected radii,
- * four an octave and for vo sixteen, of which one serves its neighbours. Else the methods
- * are the scalar ones: where a radius is projected they use focal lengths, which nothing
- * else of them reads, so that another radius is other focal lengths.
+ * four an octave and for vo sixteen, of which one serves its neighbours. Samples of hbao
+ * and alchemy that are 32 pixels away or more are at multiples of 4 pixels.
  */
 #include "fast.h"
 
 #include "core/backend.h"
+#include "core/falloff.h"
 #include "core/gbuffer.h"
 #include "core/noise.h"
 
@@ -154,34 +154,126 @@ static float vo(const statement *s, int32_t x, int32_t y, float radius)
     return total > 0 ? fminf(1, 2 * open / total) : 1;
 }
 
-/* The scalar method where the vertical projected radius is another one. */
-static float with_radius(statement *s, int32_t x, int32_t y, float radius)
+/* Where a sample is: of a step in pixels, rounded to the nearest texel and, where it
+ * leads 32 pixels to a side or more, to one a multiple of 4 away. */
+static void to_texel(float across, float down, float step[2])
 {
-    crv__params *p = &s->params;
-    const crv__params kept = *p;
-    const float d = *crv__plane_at(&s->frame.depth[0], x, y);
-    p->fx = radius * (kept.fx * kept.inv_fy) * (p->orthographic ? 1 : d) / p->radius;
-    p->fy = radius * (p->orthographic ? 1 : d) / p->radius;
-    p->max_radius_px = INFINITY;
-    const float a = crv__method_of(s->c->options.method)->accessibility(&s->frame, x, y);
-    *p = kept;
-    return a;
+    step[0] = floorf(across + 0.5f);
+    step[1] = floorf(down + 0.5f);
+    if (fabsf(step[0]) < 32 && fabsf(step[1]) < 32)
+        return;
+    step[0] = 4 * rintf(step[0] / 4);
+    step[1] = 4 * rintf(step[1] / 4);
 }
 
-/* methods/alchemy.c: so many of its points stand for the disk of another radius. */
-static float alchemy(statement *s, int32_t x, int32_t y, float radius)
+/* The surface at a step from (x, y) in a layer; INFINITY where there is none. */
+static float depth_at(const statement *s, int32_t layer, int32_t x, int32_t y,
+                      const float step[2])
 {
-    crv__params *p = &s->params;
-    const float true_radius = radius_at(s, x, y), ratio = radius / true_radius;
-    const float largest = true_radius * fmaxf(1, p->fx * p->inv_fy);
-    const float band = ceilf((float)p->bands * largest / p->band_px);
+    const float u = (float)x + step[0], v = (float)y + step[1];
+    if (!(u >= 0 && v >= 0 && u < (float)s->params.width && v < (float)s->params.height))
+        return INFINITY;
+    const float z = *crv__plane_at(&s->frame.depth[layer], (int32_t)u, (int32_t)v);
+    return z < s->background ? z : INFINITY;
+}
+
+/* A slice of hbao so far, as in methods/hbao.c. */
+typedef struct slice {
+    float horizon, occlusion, weight;
+} slice;
+
+/* The point v from P, at `offset` on the image plane, may raise a slice's horizon. */
+static void raise_horizon(slice *walk, const crv__params *p, crv__vec3 ray, crv__vec3 n,
+                          crv__vec3 offset, crv__vec3 v)
+{
+    const float r = sqrtf(crv__dot(v, v));
+    const float along = crv__dot(n, offset), facing = -crv__dot(n, ray);
+    const crv__vec3 T = {facing * offset.x + along * ray.x,
+                         facing * offset.y + along * ray.y, along * ray.z};
+    const float length = sqrtf(crv__dot(T, T));
+    if (!(r < p->radius) || r == 0 || !(length > 0))
+        return;
+    /* The tangent's angle and the bias, by the sines and cosines of both. */
+    const float sine = T.z / length, cosine = sqrtf(T.x * T.x + T.y * T.y) / length;
+    if (cosine * p->cos_bias <= sine * p->sin_bias)
+        return;
+    const float h = v.z / r - (sine * p->cos_bias + cosine * p->sin_bias);
+    if (h <= walk->horizon)
+        return;
+    walk->weight = crv__falloff(p, r * p->inv_radius);
+    walk->occlusion += (h - walk->horizon) * walk->weight;
+    walk->horizon = h;
+}
+
+/* methods/hbao.c with samples where another radius and the grid put them. */
+static float hbao(const statement *s, int32_t x, int32_t y, float radius)
+{
+    const crv__params *p = &s->params;
+    const crv__noise_texel *noise = crv__noise_at(&s->frame, x, y);
+    const float d = *crv__plane_at(&s->frame.depth[0], x, y);
+    const crv__vec3 P = crv__unproject(p, x, y, d), n = crv__normal_at(&s->frame, x, y);
+    const crv__vec3 ray =
+        p->orthographic ? (crv__vec3){0, 0, -1} : (crv__vec3){P.x / d, P.y / d, -1};
+    float occlusion = 0;
+    for (int32_t k = 0; k < p->directions; k++) {
+        const crv__vec2 to = crv__direction(&s->frame, noise, k);
+        slice walk = {0, 0, 0};
+        for (int32_t i = 0; i < p->steps; i++) {
+            float t = ((float)i + 0.5f + 0.5f * noise->beta) / (float)p->steps, step[2];
+            t *= p->spacing == CRV_SPACING_QUADRATIC ? t : 1;
+            to_texel(t * (to.x * (radius * (p->fx * p->inv_fy))), t * (-to.y * radius),
+                     step);
+            const crv__vec3 offset = {step[0] * p->inv_fx, -step[1] * p->inv_fy, 0};
+            for (int32_t layer = 0; layer < p->layers && !(step[0] == 0 && step[1] == 0);
+                 layer++) {
+                const float z = depth_at(s, layer, x, y, step);
+                if (z < INFINITY)
+                    raise_horizon(&walk, p, ray, n, offset,
+                                  crv__sub(crv__unproject(p, x + (int32_t)step[0],
+                                                          y + (int32_t)step[1], z),
+                                           P));
+            }
+        }
+        occlusion += p->attenuation == CRV_ATTENUATION_SLAB ? walk.occlusion
+                                                            : walk.horizon * walk.weight;
+    }
+    return 1 - occlusion / (float)p->directions;
+}
+
+/* methods/alchemy.c likewise: so many of its points stand for another radius' disk. */
+static float alchemy(const statement *s, int32_t x, int32_t y, float radius)
+{
+    const crv__params *p = &s->params;
+    const crv__noise_texel *noise = crv__noise_at(&s->frame, x, y);
+    const float d = *crv__plane_at(&s->frame.depth[0], x, y);
+    const crv__vec3 P = crv__unproject(p, x, y, d), n = crv__normal_at(&s->frame, x, y);
+    const float own = radius_at(s, x, y), ratio = radius / own;
+    const float band =
+        ceilf((float)p->bands * own * fmaxf(1, p->fx * p->inv_fy) / p->band_px);
     const int32_t used = (int32_t)fmaxf(fminf(band, (float)p->bands), 1);
-    const crv__params kept = *p;
-    p->samples = (p->samples * used + p->bands - 1) / p->bands;
-    p->bands = 1;
-    const float a = with_radius(s, x, y, radius);
-    *p = kept;
-    return 1 - (1 - a) * ratio * ratio;
+    const int32_t count = (p->samples * used + p->bands - 1) / p->bands;
+    float sum = 0;
+    for (int32_t i = 0; i < count; i++) {
+        const crv__vec2 disk =
+            crv__turned(noise, s->pattern[4 * i], s->pattern[4 * i + 1]);
+        float step[2];
+        to_texel(disk.x * (radius * (p->fx * p->inv_fy)), -disk.y * radius, step);
+        for (int32_t layer = 0; layer < p->layers && !(step[0] == 0 && step[1] == 0);
+             layer++) {
+            const float z = depth_at(s, layer, x, y, step);
+            if (!(z < INFINITY))
+                continue;
+            const crv__vec3 v = crv__sub(
+                crv__unproject(p, x + (int32_t)step[0], y + (int32_t)step[1], z), P);
+            const float squared = crv__dot(v, v), radius2 = p->radius * p->radius;
+            if (!(squared <= radius2))
+                continue;
+            sum += fmaxf(0, crv__dot(v, n) - d * p->alchemy_bias)
+                   / (squared + p->alchemy_eps * radius2);
+            break;
+        }
+    }
+    return 1 - 2 * p->radius * sum / (float)count * ratio * ratio;
 }
 
 /* Whether plans like this one have the fast structure: see crv__fast_create(). */
@@ -214,7 +306,7 @@ static float value_at(statement *s, int32_t x, int32_t y, int structure, int *ha
         else if (strcmp(name, "vo") == 0)
             a = vo(s, x, y, radius);
         else
-            a = strcmp(name, "hbao") == 0 ? with_radius(s, x, y, radius)
+            a = strcmp(name, "hbao") == 0 ? hbao(s, x, y, radius)
                                           : alchemy(s, x, y, radius);
     }
     const crv_options *o = &s->c->options;

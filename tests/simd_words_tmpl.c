@@ -138,11 +138,36 @@ static void check_comparisons(simd_random *r)
                      taken(vf_clamp01(va)).lane[i]);
         expect_float("vf_abs", i, fabsf(x), taken(vf_abs(va)).lane[i]);
     }
-    int any = 0;
-    for (int i = 0; i < N; i++)
+    int any = 0, count = 0;
+    int32_t largest = INT32_MIN;
+    for (int i = 0; i < N; i++) {
         any |= a.lane[i] < b.lane[i];
+        count += a.lane[i] < b.lane[i];
+        largest = m.lane[i] > largest ? m.lane[i] : largest;
+    }
     expect_int("vm_any", 0, any, vm_any(lt));
+    expect_int("vm_count", 0, count, vm_count(lt));
+    expect_int("vi_largest", 0, largest, vi_largest(vm_));
     expect_int("vm_none", 0, 0, vm_any(vm_none()));
+}
+
+/* Horizons in [0, 2], what may raise them, and squared distances about a limit. */
+static void check_max_within(simd_random *r)
+{
+    floats a, b, q;
+    for (int i = 0; i < N; i++) {
+        a.lane[i] = simd_chance(r, 4) ? 0 : (float)simd_log(r, 1e-6, 2);
+        b.lane[i] = (simd_chance(r, 2) ? -1.0f : 1.0f) * (float)simd_log(r, 1e-6, 2);
+        q.lane[i] = (float)simd_log(r, 1e-12, 1e12);
+    }
+    const float limit = (float)simd_log(r, 1e-6, 1e6);
+    const floats got = taken(
+        vf_max_within(vf_load(a.lane), vf_load(b.lane), vf_load(q.lane), vf_set(limit)));
+    for (int i = 0; i < N; i++) {
+        const float expected = q.lane[i] < limit ? most(b.lane[i], a.lane[i]) : a.lane[i];
+        if (q.lane[i] < limit || q.lane[i] > limit)
+            expect_float("vf_max_within", i, expected, got.lane[i]);
+    }
 }
 
 static void check_rounding(simd_random *r)
@@ -282,6 +307,7 @@ int CRV__NAME(words)(uint64_t seed)
     check_fours();
     for (int round = 0; round < ROUNDS; round++) {
         check_comparisons(&r);
+        check_max_within(&r);
         check_rounding(&r);
         check_approximations(&r);
         check_gather(&r);

@@ -34,10 +34,9 @@ static simd_case *make_case(const char *method, int32_t index)
 /*
  * Reciprocals and roots of at least 11 bits in sums of weights of one: 4e-4. More than
  * 1e-3 is a sample on the other side of a limit, or a tie of two texels rounded the other
- * way, as in the test of the exact kernels; the statement gets at its radius by way of a
- * focal length, which moves samples by a rounding, so that there are a few more.
+ * way, as in the test of the exact kernels.
  */
-static const double TOLERANCE = 1e-3, SHARE = 3e-4;
+static const double TOLERANCE = 1e-3, SHARE = 1e-4;
 
 static int32_t count_beyond(const float *a, const float *b, int32_t count,
                             double tolerance)

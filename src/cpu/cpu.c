@@ -13,8 +13,8 @@ enum {
     TILE_WIDTH = 128,
     TILE_HEIGHT = 32,
     TILE_STRIP = 8,
-    FAST_TILE_GROUPS = 4,
-    FAST_TILE_HEIGHT = 32,
+    FAST_TILE_GROUPS = CRV__FAST_TILE_GROUPS,
+    FAST_TILE_HEIGHT = CRV__FAST_TILE_ROWS * CRV__FAST_PHASES,
     FAST_TILE_STRIP = 4
 };
 
@@ -134,7 +134,7 @@ static void mend_row(const tiles *t, int32_t x0, int32_t x1, int32_t y, float *o
     }
 }
 
-/* A tile of groups: rows of the same phase after another, which share their lists. */
+/* A tile of groups: rows of the same phase at once, which share their lists. */
 static void run_fast_tile(void *data, uint32_t index)
 {
     const tiles *t = data;
@@ -154,11 +154,11 @@ static void run_fast_tile(void *data, uint32_t index)
     const int32_t to = last * CRV__FAST_SPAN - t->fast->left;
     const int32_t x0 = from > out->x0 ? from : out->x0;
     const int32_t x1 = to < out->x0 + out->width ? to : out->x0 + out->width;
-    for (int32_t i = 0; i < CRV__FAST_PHASES; i++) {
+    for (int32_t i = 0; i < CRV__FAST_PHASES && y0 + i < y1; i++) {
+        const crv__fast_tile tile = {first, last, y0 + i, y1};
+        const int beyond = t->fast_kernel(t->work->frame, t->fast, &tile, out);
         for (int32_t y = y0 + i; y < y1; y += CRV__FAST_PHASES) {
             float *result = crv__plane_at(out, x0, y);
-            const int beyond = t->fast_kernel(t->work->frame, t->fast, y, first, last, x0,
-                                              x1 - x0, result);
             for (int32_t x = 0; x < x1 - x0 && p->contrast != 1; x++)
                 result[x] = powf(result[x], p->contrast);
             if (beyond)

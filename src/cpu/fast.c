@@ -12,6 +12,7 @@
 enum {
     PHASES = CRV__FAST_PHASES * CRV__FAST_PHASES,
     OCTAVES = 14,       /* of projected radii, from half a pixel on */
+    FAR_PX = 32,        /* samples from here on are on the phase's grid */
     MOST_LAYERS = 3,    /* 48 bytes a pixel do not hold more */
     BYTES_A_PIXEL = 48, /* beyond input and output */
     TABLES_WHATEVER_THE_SIZE = 2 << 20
@@ -51,11 +52,12 @@ static int measure(crv__fast_state *s, const crv__setup *setup)
     fast->left = wrapped((int64_t)d->origin_x - d->guard_left, CRV__FAST_SPAN);
     fast->top = wrapped((int64_t)d->origin_y - d->guard_top, CRV__FAST_PHASES);
     fast->columns = (fast->left + d->width + CRV__FAST_PHASES - 1) / CRV__FAST_PHASES;
-    const int32_t groups = (fast->columns + CRV__FAST_GROUP - 1) / CRV__FAST_GROUP;
-    fast->segment = groups * CRV__FAST_GROUP + 2 * CRV__FAST_PADDING;
+    fast->rows = (fast->top + d->height + CRV__FAST_PHASES - 1) / CRV__FAST_PHASES;
     /* An odd number of cache lines: the pixels of a column fall into different sets. */
-    fast->pitch = CRV__FAST_PHASES * fast->segment + CRV__FAST_GROUP;
-    fast->layer_pitch = fast->pitch * d->height;
+    const int32_t groups = (fast->columns + CRV__FAST_GROUP - 1) / CRV__FAST_GROUP;
+    fast->pitch = (groups | 1) * CRV__FAST_GROUP + 2 * CRV__FAST_PADDING;
+    fast->plane = fast->pitch * fast->rows;
+    fast->layer_pitch = fast->pitch + (ptrdiff_t)PHASES * fast->plane;
     s->list_count = (size_t)fast->buckets * PHASES;
     s->sample_count = s->list_count * (size_t)(fast->walks * fast->steps);
     s->depth_count = (size_t)fast->layer_pitch * (size_t)d->layers;
@@ -160,11 +162,13 @@ static float radius_of(const crv__fast *fast, int32_t bucket)
     return 2 * low * high / (low + high);
 }
 
-/* Fills a sample and its place for the step (du, dv) in pixels from a pixel of phase px.
+/* Fills a sample and its place for the step (du, dv) in pixels from a pixel of a phase.
  */
-static void fill_sample(const crv__fast *fast, const crv__params *p, int32_t px, float du,
-                        float dv, crv__fast_sample *sample, crv__fast_place *place)
+static void fill_sample(const crv__fast *fast, const crv__params *p, int32_t phase,
+                        float du, float dv, crv__fast_sample *sample,
+                        crv__fast_place *place)
 {
+    const int32_t px = phase % CRV__FAST_PHASES, py = phase / CRV__FAST_PHASES;
     const float x = du * p->inv_fx, y = -dv * p->inv_fy;
     const float squared = x * x + y * y, length = sqrtf(squared);
     const float cosine = length > 0 ? x / length : 0, sine = length > 0 ? y / length : 0;
@@ -181,12 +185,14 @@ static void fill_sample(const crv__fast *fast, const crv__params *p, int32_t px,
         return;
     place->dv = (int16_t)dv;
     for (int32_t side = 0; side < 2; side++) {
-        const int32_t column = px + (int32_t)(side ? -du : du);
-        const int32_t segment = column & (CRV__FAST_PHASES - 1);
-        const int32_t shift = (column - segment) / CRV__FAST_PHASES;
+        const int32_t column = px + (int32_t)(side ? -du : du),
+                      row = py + (int32_t)(side ? -dv : dv);
+        const int32_t to_x = column & (CRV__FAST_PHASES - 1),
+                      to_y = row & (CRV__FAST_PHASES - 1);
+        const int32_t shift = (column - to_x) / CRV__FAST_PHASES;
         place->shift[side] = (int16_t)shift;
-        place->offset[side] = (int32_t)((side ? -place->dv : place->dv) * fast->pitch)
-                              + segment * fast->segment + shift;
+        place->offset[side] = (to_y * CRV__FAST_PHASES + to_x - phase) * fast->plane
+                              + (row - to_y) / CRV__FAST_PHASES * fast->pitch + shift;
     }
 }
 
@@ -202,7 +208,8 @@ static void extend(crv__fast_reach *reach, const crv__fast_place *place)
 }
 
 /* The step to sample i of walk k in pixels, to the right and down, as the methods have
- * it, or, without walks, to point i; radii in pixels. */
+ * it, or, without walks, to point i; far ones to the grid of the pixel's phase. Radii in
+ * pixels. */
 static void step_to(const crv__fast_kind *kind, const crv__frame *f,
                     const crv__noise_texel *noise, int32_t k, int32_t i, float radius_x,
                     float radius_y, float step[2])
@@ -222,6 +229,10 @@ static void step_to(const crv__fast_kind *kind, const crv__frame *f,
     step[1] = t * (-to.y * radius_y);
     for (int32_t axis = 0; axis < 2; axis++)
         step[axis] = kind->is_rounded ? rintf(step[axis]) : floorf(step[axis] + 0.5f);
+    if (kind->on_grid && fmaxf(fabsf(step[0]), fabsf(step[1])) >= FAR_PX) {
+        for (int32_t axis = 0; axis < 2; axis++)
+            step[axis] = CRV__FAST_PHASES * rintf(step[axis] / CRV__FAST_PHASES);
+    }
 }
 
 /* One list: the samples of one bucket and phase. */
@@ -248,7 +259,7 @@ static void fill_list(const fill_job *job, uint32_t index)
             if (!kind->keeps_own && step[0] == 0 && step[1] == 0)
                 continue;
             crv__fast_place *place = &fast->places[first + count];
-            fill_sample(fast, p, px, step[0], step[1], &fast->samples[first + count],
+            fill_sample(fast, p, phase, step[0], step[1], &fast->samples[first + count],
                         place);
             place->index = (int16_t)i;
             extend(&reach, place);

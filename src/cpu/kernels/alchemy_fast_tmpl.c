@@ -45,11 +45,9 @@ static inline __attribute__((always_inline)) vf count_of(const crv__fast_pixels 
     return vf_floor((samples * used + bands - vf_set(0.5f)) / bands);
 }
 
-static inline __attribute__((always_inline)) vf sum_of_points(const crv__fast_pixels *at,
-                                                              const crv__fast_list *list,
-                                                              int32_t orthographic,
-                                                              int32_t layers,
-                                                              int32_t banded)
+static inline __attribute__((always_inline)) vf sum_of_points(
+    const crv__fast_pixels *at, const crv__fast_list *list, int32_t orthographic,
+    int32_t layers, int32_t banded, int32_t near)
 {
     const crv__params *p = at->frame->params;
     const view w = view_of(at, orthographic);
@@ -58,12 +56,12 @@ static inline __attribute__((always_inline)) vf sum_of_points(const crv__fast_pi
     for (int32_t i = 0; i < list->counts[0]; i++) {
         const crv__fast_sample *s = &list->samples[i];
         const vf x2 = vf_set(s->x2), y2 = vf_set(s->y2), squared2 = vf_set(s->squared);
+        const float *from = crv__fast_from(at, &list->places[i], 0, near);
         const vf along = vf_fma(x2, at->ray_x, y2 * at->ray_y);
         const vf rise = vf_fma(x2, w.half_x, y2 * w.half_y);
         vm left = vf_le(w.scale, w.scale); /* lanes with no layer within the radius yet */
         for (int32_t layer = 0; layer < layers; layer++) {
-            const float *own = at->own + layer * at->fast->layer_pitch;
-            const vf depth = crv__fast_read(own + list->places[i].offset[0]);
+            const vf depth = crv__fast_read(at, from + layer * at->fast->layer_pitch);
             const vf k = vf_fma(-depth, w.scale, w.origin);
             vf squared, over;
             if (orthographic) {
@@ -76,14 +74,17 @@ static inline __attribute__((always_inline)) vf sum_of_points(const crv__fast_pi
                                  squared2);
                 over = vf_fma(k, w.facing - rise, rise);
             }
-            vm valid = vf_le(squared, w.limit);
-            if (layers > 1) {
-                valid = vm_and(valid, left);
+            vf above = over - w.bias;
+            if (layers > 1 || banded) {
+                vm valid = vm_and(vf_le(squared, w.limit), left);
                 left = vm_and(left, vm_not(valid));
+                if (banded)
+                    valid =
+                        vm_and(valid, vf_lt(vf_set((float)list->places[i].index), count));
+                above = vf_where(valid, vf_max(above, vf_zero()));
+            } else {
+                above = vf_max_within(vf_zero(), above, squared, w.limit);
             }
-            if (banded)
-                valid = vm_and(valid, vf_lt(vf_set((float)list->places[i].index), count));
-            const vf above = vf_where(valid, vf_max(over - w.bias, vf_zero()));
             sum = vf_fma(above, vf_rcp_rough(squared + w.eps), sum);
         }
     }
@@ -99,21 +100,28 @@ static inline __attribute__((always_inline)) vf sum_of_points(const crv__fast_pi
 static __attribute__((noinline)) vf common(const crv__fast_pixels *at,
                                            const crv__fast_list *list)
 {
-    return sum_of_points(at, list, 0, 1, 0);
+    return sum_of_points(at, list, 0, 1, 0, 0);
+}
+
+static __attribute__((noinline)) vf common_near(const crv__fast_pixels *at,
+                                                const crv__fast_list *list)
+{
+    return sum_of_points(at, list, 0, 1, 0, 1);
 }
 
 static __attribute__((noinline)) vf general(const crv__fast_pixels *at,
                                             const crv__fast_list *list)
 {
     const crv__params *p = at->frame->params;
-    return sum_of_points(at, list, p->orthographic, p->layers, p->bands > 1);
+    return sum_of_points(at, list, p->orthographic, p->layers, p->bands > 1, 1);
 }
 
 static inline vf accessibility(const crv__fast_pixels *at, const crv__fast_list *list)
 {
     const crv__params *p = at->frame->params;
-    return p->layers == 1 && !p->orthographic && p->bands == 1 ? common(at, list)
-                                                               : general(at, list);
+    if (p->layers > 1 || p->orthographic || p->bands > 1)
+        return general(at, list);
+    return at->near ? common_near(at, list) : common(at, list);
 }
 
 CRV__FAST_KERNEL(alchemy)

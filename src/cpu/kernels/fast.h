@@ -7,10 +7,14 @@
  * small part of an octave, they share every sample's offset as well: offsets are scalars
  * that stand in a table for each bucket and phase, and reading 16 samples is one load.
  *
- * Depth is stored by phases of x: each row is four segments, segment s holding the
- * columns s, s + 4, s + 8, ... A group is 16 pixels of one phase in one row, that is, of
- * 64 columns. Columns count from a multiple of 64 of the whole picture's, so that a crop
- * deals its pixels out as the picture does.
+ * Depth is stored by phases, too: 16 planes, the one of phase (px, py) holding the rows
+ * py, py + 4, ... and of these the columns px, px + 4, ... A group is 16 pixels of one
+ * phase in one row, that is, of 64 columns. Columns count from a multiple of 64 of the
+ * whole picture's, so that a crop deals its pixels out as the picture does.
+ *
+ * Far samples are at multiples of 4 pixels in x and y, so that a pixel finds them in its
+ * own phase's plane: a tile whose pixels are computed phase after phase reads a sixteenth
+ * of its surroundings at a time, which stays in the cache however large the radius is.
  */
 #ifndef CRV_CPU_KERNELS_FAST_H
 #define CRV_CPU_KERNELS_FAST_H
@@ -21,9 +25,11 @@ enum {
     CRV__FAST_PHASES = 4, /* along each axis */
     CRV__FAST_GROUP = 16,
     CRV__FAST_SPAN = CRV__FAST_PHASES * CRV__FAST_GROUP, /* columns of a group */
-    CRV__FAST_PADDING = 16,       /* floats of background at each end of a segment */
-    CRV__FAST_OFF = INT16_MAX,    /* a sample's shift: it is off every picture */
-    CRV__FAST_MOST_SAMPLES = 1024 /* in a list */
+    CRV__FAST_PADDING = 16,        /* floats of background at each end of a row */
+    CRV__FAST_OFF = INT16_MAX,     /* a sample's shift: it is off every picture */
+    CRV__FAST_MOST_SAMPLES = 1024, /* in a list */
+    CRV__FAST_TILE_GROUPS = 4,     /* that a kernel computes at once, and rows of each */
+    CRV__FAST_TILE_ROWS = 16
 };
 
 /* The direction to a sample, o = (x, y) the step on the image plane at unit depth
@@ -38,8 +44,8 @@ typedef struct crv__fast_sample {
 
 /* Where a sample and the one opposite to it are, from a pixel on. */
 typedef struct crv__fast_place {
-    int32_t offset[2]; /* floats from the pixel's place in segment 0 of its row */
-    int16_t shift[2];  /* of which so many along the segment */
+    int32_t offset[2]; /* floats from the pixel's place in its plane */
+    int16_t shift[2];  /* of which so many along the row */
     int16_t dv;        /* rows down; the opposite one as many up */
     int16_t index;     /* of the point in its pattern */
 } crv__fast_place;
@@ -56,12 +62,13 @@ typedef struct crv__fast_reach {
  * background: their radius is a thousandth of a pixel, or of the rounding of their depth.
  */
 typedef struct crv__fast {
-    /* depth by phases of x: layer, row, segment */
+    /* depth by phases: layer, a row of background, plane, row */
     float *depth;
-    ptrdiff_t pitch, layer_pitch; /* floats */
-    int32_t segment, columns;     /* floats of a segment; of which hold pixels */
-    int32_t left, top;            /* column and row of the buffers' first pixel */
-    float background;             /* what stands for no surface: finite */
+    ptrdiff_t layer_pitch; /* floats */
+    int32_t plane, pitch;  /* floats of a plane; of a row in it */
+    int32_t rows, columns; /* of a plane; of the latter those that hold pixels */
+    int32_t left, top;     /* column and row of the buffers' first pixel */
+    float background;      /* what stands for no surface: finite */
 
     /* a list of samples for each bucket and phase: `walks` times at most `steps` */
     int32_t buckets, walks, steps;
@@ -81,16 +88,30 @@ typedef struct crv__fast {
 #define CRV__FAST_SMALLEST 0.5f
 enum { CRV__FAST_SMALLEST_BITS = 0x3f000000, CRV__FAST_MANTISSA = 23 };
 
-/* Accessibility, as a crv__estimate_kernel computes it, of the groups that begin at
- * columns first to last - 1 (in spans) of row y, all four phases of x; to out, `width`
- * pixels from buffer column x0 on; nothing is written beside them. Returns whether some
- * pixel's radius is beyond the table: such pixels hold rubbish. */
-typedef int (*crv__fast_kernel)(const crv__frame *frame, const crv__fast *fast, int32_t y,
-                                int32_t first, int32_t last, int32_t x0, int32_t width,
-                                float *out);
+/* Groups `first` to last - 1 of a row, in rows y0, y0 + 4, ... below y1, so of the same
+ * phases; at most CRV__FAST_TILE_GROUPS and CRV__FAST_TILE_ROWS. */
+typedef struct crv__fast_tile {
+    int32_t first, last, y0, y1;
+} crv__fast_tile;
 
-/* Fills row y of fast->depth from all layers. */
+/* Accessibility, as a crv__estimate_kernel computes it, of a tile, all four phases of x;
+ * nothing is written beside `out`. Returns whether some pixel's radius is beyond the
+ * table: such pixels hold rubbish. */
+typedef int (*crv__fast_kernel)(const crv__frame *frame, const crv__fast *fast,
+                                const crv__fast_tile *tile, const crv__plane *out);
+
+/* Fills what fast->depth holds of row y from all layers. */
 typedef void (*crv__fast_deal_kernel)(const crv__frame *frame, const crv__fast *fast,
                                       int32_t y);
+
+/* Floats from a layer's first on to column m of a picture's row y, which belongs to a
+ * plane of phase px. */
+static inline ptrdiff_t crv__fast_index(const crv__fast *fast, int32_t y, int32_t px,
+                                        int32_t m)
+{
+    const int32_t row = y + fast->top, py = row & (CRV__FAST_PHASES - 1);
+    return fast->pitch + (ptrdiff_t)(py * CRV__FAST_PHASES + px) * fast->plane
+           + (ptrdiff_t)(row / CRV__FAST_PHASES) * fast->pitch + CRV__FAST_PADDING + m;
+}
 
 #endif

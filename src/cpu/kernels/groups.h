@@ -17,22 +17,26 @@ typedef struct crv__fast_list {
 typedef struct crv__fast_pixels {
     const crv__frame *frame;
     const crv__fast *fast;
-    const float *own;  /* their place in segment 0 of layer 0 */
+    const float *own;  /* their place in layer 0 */
+    int32_t y, m;      /* the group's row and column in its plane */
+    int32_t near;      /* whether samples may be off the picture */
+    int32_t off;       /* where those are then, from `own` on */
     vf depth, inverse; /* planar depth, and 1 over it */
     vf ray_x, ray_y;   /* the view ray (x, y, -1), or (0, 0, -1) */
     crv__v3 n;
 } crv__fast_pixels;
 
 /* CRV__FAST_SPAN floats of a plane's row from x on, which may leave the plane; `fill`
- * there. Lands in `room` or is read where it is. */
+ * there. Lands in `room` or is read where it is. Asks for those `ahead` floats
+ * on; 0: does not. */
 CRV__INLINE const float *crv__span_read(const crv__plane *plane, int32_t x, int32_t y,
-                                        float fill, float *room)
+                                        float fill, float *room, ptrdiff_t ahead)
 {
     const float *row = crv__plane_at(plane, plane->x0, y);
     const int32_t at = x - plane->x0;
     if (at >= 0 && at + CRV__FAST_SPAN <= plane->width) {
-        for (int32_t i = 0; i < CRV__FAST_SPAN; i += CRV__FAST_GROUP)
-            __builtin_prefetch(row + at + CRV__FAST_SPAN + i); /* the next one */
+        for (int32_t i = 0; ahead > 0 && i < CRV__FAST_SPAN; i += CRV__FAST_GROUP)
+            __builtin_prefetch(row + at + ahead + i);
         return row + at;
     }
     for (int32_t i = 0; i < CRV__FAST_SPAN; i++)
@@ -40,44 +44,37 @@ CRV__INLINE const float *crv__span_read(const crv__plane *plane, int32_t x, int3
     return room;
 }
 
-/* Splits a span into its four phases of a group each. */
-CRV__INLINE void crv__span_split(const float *span, float (*phases)[CRV__FAST_GROUP])
+/* Of 4 * CRV__LANES floats every fourth from `phase` on. */
+CRV__INLINE vf crv__span_pick(const float *from, int32_t phase)
 {
-    for (int32_t i = 0; i < CRV__FAST_GROUP; i += CRV__LANES) {
-        vf parts[4];
-        vf_split4(span + 4 * i, parts);
-        for (int32_t k = 0; k < 4; k++)
-            vf_store(phases[k] + i, parts[k]);
-    }
+    vf parts[4];
+    vf_split4(from, parts);
+    return parts[phase];
 }
 
-/* The list of a bucket for a phase, with samples off the picture sent to background where
- * the group is near the border; `room` holds such places. */
-CRV__INLINE crv__fast_list crv__fast_list_at(const crv__fast *fast, const crv__frame *f,
-                                             int32_t bucket, int32_t phase, int32_t y,
-                                             int32_t m, crv__fast_place *room)
+/* The list of a bucket for a phase; sets whether `at` is near the border for it. */
+CRV__INLINE crv__fast_list crv__fast_list_at(crv__fast_pixels *at, int32_t bucket,
+                                             int32_t phase)
 {
+    const crv__fast *fast = at->fast;
     const int32_t index = bucket * CRV__FAST_PHASES * CRV__FAST_PHASES + phase;
-    const int32_t most = fast->walks * fast->steps, height = f->params->height;
-    const ptrdiff_t first = (ptrdiff_t)index * most;
+    const ptrdiff_t first = (ptrdiff_t)index * (fast->walks * fast->steps);
     const crv__fast_reach reach = fast->reaches[index];
-    crv__fast_list list = {fast->samples + first, fast->places + first,
-                           fast->counts + (ptrdiff_t)index * fast->walks, reach.radius};
-    if (y - reach.rows >= 0 && y + reach.rows < height
-        && m + reach.shift_min > -CRV__FAST_GROUP && m + reach.shift_max < fast->columns)
-        return list;
-    const int32_t background = (int32_t) - (y * fast->pitch + CRV__FAST_PADDING + m);
-    for (int32_t i = 0; i < most; i++) {
-        room[i] = list.places[i];
-        for (int32_t side = 0; side < 2; side++) {
-            const int32_t v = y + (side ? -room[i].dv : room[i].dv);
-            const int32_t u = m + room[i].shift[side];
-            if (v < 0 || v >= height || u <= -CRV__FAST_GROUP || u >= fast->columns)
-                room[i].offset[side] = background;
-        }
-    }
-    list.places = room;
-    return list;
+    at->near = at->y < reach.rows || at->y + reach.rows >= at->frame->params->height
+               || at->m + reach.shift_min <= -CRV__FAST_GROUP
+               || at->m + reach.shift_max >= fast->columns;
+    return (crv__fast_list){fast->samples + first, fast->places + first,
+                            fast->counts + (ptrdiff_t)index * fast->walks, reach.radius};
+}
+
+/* The least lane that is over `limit`, INT32_MAX where there is none. */
+CRV__INLINE int32_t crv__fast_least(vi a, int32_t limit)
+{
+    /* How far below the most that an integer holds: what does not count comes out as 0.
+     */
+    const vi most = vi_set(INT32_MAX);
+    const vi counts = vi_select(vi_lt(vi_set(limit), a), a, most);
+    return INT32_MAX - vi_largest(vi_sub(most, counts));
 }
 
 /* A bucket for the lanes from bucket `low` on, which is the lowest of those left, and how
@@ -87,37 +84,66 @@ CRV__INLINE int32_t crv__fast_choose(const int32_t *buckets, int32_t low, int32_
                                      int32_t *next)
 {
     int32_t lowest = 0, above = 0, third = 0, beyond = INT32_MAX;
-    for (int32_t i = 0; i < CRV__FAST_GROUP; i++) {
-        lowest += buckets[i] == low;
-        above += buckets[i] == low + 1;
-        third |= buckets[i] == low + 2;
-        beyond = buckets[i] > low + 2 && buckets[i] < beyond ? buckets[i] : beyond;
+    for (int32_t i = 0; i < CRV__FAST_GROUP; i += CRV__LANES) {
+        const vi own = vi_load(buckets + i);
+        const int32_t least = crv__fast_least(own, low + 2);
+        lowest += vm_count(vi_eq(own, vi_set(low)));
+        above += vm_count(vi_eq(own, vi_set(low + 1)));
+        third |= vm_any(vi_eq(own, vi_set(low + 2)));
+        beyond = least < beyond ? least : beyond;
     }
     *high = low + 2;
     *next = beyond;
     return third || above > lowest ? low + 1 : low;
 }
 
-/* Lanes' depths of a sample. The next group of the phase will read the line after those
- * that this one reads: asking for it now hides the second level's misses. */
-CRV__INLINE vf crv__fast_read(const float *from)
+/* Where lanes have a sample, or the one opposite to it. Off the picture: background. */
+CRV__INLINE const float *crv__fast_from(const crv__fast_pixels *at,
+                                        const crv__fast_place *place, int32_t side,
+                                        int32_t near)
 {
-    __builtin_prefetch(from + 2 * CRV__FAST_GROUP);
+    int32_t offset = place->offset[side];
+    if (near) {
+        const int32_t v = at->y + (side ? -place->dv : place->dv);
+        const int32_t u = at->m + place->shift[side] + CRV__FAST_GROUP - 1;
+        const int32_t columns = at->fast->columns + CRV__FAST_GROUP - 1;
+        const int on = ((uint32_t)v < (uint32_t)at->frame->params->height)
+                       & ((uint32_t)u < (uint32_t)columns);
+        offset = at->off + ((offset - at->off) & -on); /* no branch to be foretold */
+    }
+    return at->own + offset;
+}
+
+/* Lanes' depths of a sample. The phase's next group will read the next line and, in a
+ * row's time, the group below it the one that is a row on: asking for them now, the
+ * latter for the second level, hides misses. */
+CRV__INLINE vf crv__fast_read(const crv__fast_pixels *at, const float *from)
+{
+    __builtin_prefetch(from + 31);
+    __builtin_prefetch(from + at->fast->pitch + 15, 0, 2);
     return vf_load(from);
 }
 
 typedef vf (*crv__fast_method)(const crv__fast_pixels *pixels,
                                const crv__fast_list *list);
 
-/* Buckets and reciprocal depths of a group. Lanes without a surface are in no bucket
- * (-1), nor are those beyond the table; returns whether there is one of these. */
-CRV__INLINE int crv__fast_buckets(const crv__fast *fast, const crv__params *p,
-                                  const float *depth, int32_t phase, int32_t *buckets,
-                                  float *inverses, int32_t *low, int32_t *high)
+/* What is known of a group before its samples are read. */
+typedef struct crv__fast_group {
+    float inverses[CRV__FAST_GROUP]; /* 1 over the depths */
+    /* of each lane; -1 without a surface, and beyond the table */
+    int32_t buckets[CRV__FAST_GROUP];
+    int32_t low, high; /* of those from 0 on; low > high where there is none */
+} crv__fast_group;
+
+/* Returns whether there is a lane beyond the table. */
+CRV__INLINE int crv__fast_group_fill(crv__fast_group *group, const crv__fast *fast,
+                                     const crv__params *p, const float *depth,
+                                     int32_t phase)
 {
     const vf radius = vf_set(p->radius * p->fy), background = vf_set(fast->background);
     const vf cap = vf_set(fast->cap);
-    vm far = vm_first(0);
+    vm far = vm_none();
+    int32_t low = INT32_MAX, high = -1;
     for (int32_t i = 0; i < CRV__FAST_GROUP; i += CRV__LANES) {
         const vf d = vf_load(depth + i), inverse = vf_set(1) / d;
         const vf r = p->orthographic ? radius : radius * inverse;
@@ -129,38 +155,65 @@ CRV__INLINE int crv__fast_buckets(const crv__fast *fast, const crv__params *p,
         const vi bucket =
             (vf_bits(capped) - vi_set(CRV__FAST_SMALLEST_BITS)) >> fast->shift;
         const vi own = vi_select(vm_and(surface, within), bucket, vi_set(-1));
-        vf_store(inverses + i, inverse);
-        __builtin_memcpy(buckets + i, &own, sizeof own);
+        vf_store(group->inverses + i, inverse);
+        __builtin_memcpy(group->buckets + i, &own, sizeof own);
+        const int32_t largest = vi_largest(own), least = crv__fast_least(own, -1);
+        high = largest > high ? largest : high;
+        low = least < low ? least : low;
     }
-    *low = INT32_MAX;
-    *high = -1;
-    for (int32_t i = 0; i < CRV__FAST_GROUP; i++) {
-        const int32_t b = buckets[i] < 0 ? INT32_MAX : buckets[i];
-        *low = b < *low ? b : *low;
-        *high = buckets[i] > *high ? buckets[i] : *high;
-    }
+    group->low = low;
+    group->high = high;
     return vm_any(far);
+}
+
+CRV__INLINE crv__v3 crv__fast_normal_of(const float *const spans[3], int32_t px)
+{
+    return (crv__v3){crv__span_pick(spans[0], px), crv__span_pick(spans[1], px),
+                     crv__span_pick(spans[2], px)};
+}
+
+/* Lanes from i on of a phase of spans. */
+CRV__INLINE crv__v3 crv__fast_normal(const float *const spans[3], int32_t px, int32_t i)
+{
+    const float *const at[3] = {spans[0] + 4 * i, spans[1] + 4 * i, spans[2] + 4 * i};
+    switch (px) { /* so that each takes only its own from a span */
+    case 0:
+        return crv__fast_normal_of(at, 0);
+    case 1:
+        return crv__fast_normal_of(at, 1);
+    case 2:
+        return crv__fast_normal_of(at, 2);
+    default:
+        return crv__fast_normal_of(at, 3);
+    }
 }
 
 /* One pass over a group: the lanes whose bucket is from low to high, with one list. */
 CRV__INLINE void crv__fast_pass(crv__fast_pixels *at, const crv__fast_list *list,
-                                const float *depth, const float *inverses,
-                                const int32_t *buckets, int32_t low, int32_t high,
-                                int32_t x, const float *const n[3], const float *own,
-                                float *result, crv__fast_method method)
+                                const crv__fast_group *group, const float *depth,
+                                int32_t low, int32_t high, int32_t px, float *result,
+                                crv__fast_method method)
 {
     const crv__params *p = at->frame->params;
     const vf one = vf_set(1), intensity = vf_set(p->intensity);
+    const int32_t x = at->m * CRV__FAST_PHASES - at->fast->left + px;
+    float room[3][CRV__FAST_SPAN];
+    const float *normal[3];
+    for (int32_t i = 0; i < 3; i++) {
+        const crv__plane *plane = &at->frame->normal[i];
+        normal[i] = crv__span_read(plane, x - px, at->y, 0, room[i],
+                                   px == 0 ? CRV__FAST_PHASES * plane->pitch : 0);
+    }
     for (int32_t i = 0; i < CRV__FAST_GROUP; i += CRV__LANES) {
-        const vi bucket = vi_load(buckets + i);
+        const vi bucket = vi_load(group->buckets + i);
         const vm mine =
             vm_and(vi_lt(vi_set(low - 1), bucket), vi_lt(bucket, vi_set(high + 1)));
         if (!vm_any(mine))
             continue;
-        at->own = own + i;
+        at->own = depth + i;
         at->depth = vf_load(depth + i);
-        at->inverse = vf_load(inverses + i);
-        at->n = (crv__v3){vf_load(n[0] + i), vf_load(n[1] + i), vf_load(n[2] + i)};
+        at->inverse = vf_load(group->inverses + i);
+        at->n = crv__fast_normal(normal, px, i);
         const vf column = vf_of(vi_set(x + 4 * i) + vi_iota() * vi_set(4));
         at->ray_x = p->orthographic ? vf_zero()
                                     : (column + vf_set(0.5f - p->cx)) * vf_set(p->inv_fx);
@@ -170,78 +223,127 @@ CRV__INLINE void crv__fast_pass(crv__fast_pixels *at, const crv__fast_list *list
     }
 }
 
-/* All four phases of a span. Returns whether some radius is beyond the table. */
-CRV__INLINE int crv__fast_span(const crv__frame *f, const crv__fast *fast, int32_t y,
-                               int32_t group, float *span, crv__fast_method method)
+/* All passes that a group takes. */
+CRV__INLINE void crv__fast_group_run(crv__fast_pixels *at, const crv__fast_group *group,
+                                     const float *depth, int32_t px, float *result,
+                                     crv__fast_method method)
 {
-    const crv__params *p = f->params;
-    const int32_t m = group * CRV__FAST_GROUP, x = group * CRV__FAST_SPAN - fast->left;
-    float room[CRV__FAST_SPAN], normal[3][4][CRV__FAST_GROUP], result[4][CRV__FAST_GROUP];
-    crv__fast_place places[CRV__FAST_MOST_SAMPLES];
-    for (int32_t i = 0; i < 3; i++)
-        crv__span_split(crv__span_read(&f->normal[i], x, y, 0, room), normal[i]);
-    crv__fast_pixels at = {.frame = f, .fast = fast};
-    at.ray_y = vf_set(p->orthographic ? 0 : -((float)y + 0.5f - p->cy) * p->inv_fy);
-    int far = 0;
-    for (int32_t px = 0; px < CRV__FAST_PHASES; px++) {
-        const float *row = fast->depth + y * fast->pitch + CRV__FAST_PADDING + m;
-        const float *depth = row + px * fast->segment;
-        const float *const n[3] = {normal[0][px], normal[1][px], normal[2][px]};
-        const int32_t phase = ((y + fast->top) & 3) * CRV__FAST_PHASES + px;
-        int32_t buckets[CRV__FAST_GROUP], low, high;
-        float inverses[CRV__FAST_GROUP];
-        for (int32_t i = 0; i < CRV__FAST_GROUP; i += CRV__LANES)
-            vf_store(result[px] + i, vf_set(1));
-        far |= crv__fast_buckets(fast, p, depth, phase, buckets, inverses, &low, &high);
-        while (low <= high) {
-            int32_t chosen = low, top = low, next = INT32_MAX;
-            if (high > low)
-                chosen = crv__fast_choose(buckets, low, &top, &next);
-            const crv__fast_list list =
-                crv__fast_list_at(fast, f, chosen, phase, y, m, places);
-            crv__fast_pass(&at, &list, depth, inverses, buckets, low, top, x + px, n, row,
-                           result[px], method);
-            low = next;
+    const int32_t phase = ((at->y + at->fast->top) & 3) * CRV__FAST_PHASES + px;
+    int32_t low = group->low;
+    for (int32_t i = 0; i < CRV__FAST_GROUP; i += CRV__LANES)
+        vf_store(result + i, vf_set(1));
+    while (low <= group->high) {
+        int32_t chosen = low, top = low, next = INT32_MAX;
+        if (group->high > low)
+            chosen = crv__fast_choose(group->buckets, low, &top, &next);
+        const crv__fast_list list = crv__fast_list_at(at, chosen, phase);
+        crv__fast_pass(at, &list, group, depth, low, top, px, result, method);
+        low = next;
+    }
+}
+
+/* A tile's results. While it is computed, a span holds its four phases one after the
+ * other; those that leave the plane at its left or right are kept beside it. */
+typedef struct crv__fast_out {
+    const crv__plane *plane;
+    float edges[2][CRV__FAST_TILE_ROWS][CRV__FAST_SPAN];
+} crv__fast_out;
+
+/* The span whose first column is x, in row y, the tile's `row`th. */
+CRV__INLINE float *crv__fast_span(crv__fast_out *out, int32_t x, int32_t y, int32_t row)
+{
+    const crv__plane *plane = out->plane;
+    if (x < plane->x0)
+        return out->edges[0][row];
+    if (x + CRV__FAST_SPAN > plane->x0 + plane->width)
+        return out->edges[1][row];
+    return crv__plane_at(plane, x, y);
+}
+
+/* Puts the four phases of a row's spans together. */
+CRV__INLINE void crv__fast_join(const crv__fast *fast, const crv__fast_tile *tile,
+                                crv__fast_out *out, int32_t y, int32_t row)
+{
+    const crv__plane *plane = out->plane;
+    for (int32_t group = tile->first; group < tile->last; group++) {
+        const int32_t x = group * CRV__FAST_SPAN - fast->left;
+        float *span = crv__fast_span(out, x, y, row), phases[CRV__FAST_SPAN];
+        for (int32_t i = 0; i < CRV__FAST_SPAN; i += CRV__LANES)
+            vf_store(phases + i, vf_load(span + i));
+        for (int32_t i = 0; i < CRV__FAST_GROUP; i += CRV__LANES) {
+            vf parts[4];
+            for (int32_t px = 0; px < 4; px++)
+                parts[px] = vf_load(phases + px * CRV__FAST_GROUP + i);
+            vf_join4(span + 4 * i, parts);
+        }
+        if (x >= plane->x0 && x + CRV__FAST_SPAN <= plane->x0 + plane->width)
+            continue;
+        for (int32_t i = 0; i < CRV__FAST_SPAN; i++) {
+            if (x + i >= plane->x0 && x + i < plane->x0 + plane->width)
+                *crv__plane_at(plane, x + i, y) = span[i];
         }
     }
-    for (int32_t i = 0; i < CRV__FAST_GROUP; i += CRV__LANES) {
-        const vf parts[4] = {vf_load(result[0] + i), vf_load(result[1] + i),
-                             vf_load(result[2] + i), vf_load(result[3] + i)};
-        vf_join4(span + 4 * i, parts);
+}
+
+/* The groups of one row and phase. */
+CRV__INLINE int crv__fast_row(crv__fast_pixels *at, const crv__fast_tile *tile,
+                              int32_t px, int32_t row, crv__fast_out *out,
+                              crv__fast_method method)
+{
+    const crv__params *p = at->frame->params;
+    const crv__fast *fast = at->fast;
+    const int32_t phase = ((at->y + fast->top) & 3) * CRV__FAST_PHASES + px;
+    const ptrdiff_t begin = crv__fast_index(fast, at->y, px, 0);
+    const float *depth = fast->depth + begin + tile->first * CRV__FAST_GROUP;
+    const int32_t count = tile->last - tile->first;
+    crv__fast_group groups[CRV__FAST_TILE_GROUPS];
+    int far = 0;
+    at->ray_y = vf_set(p->orthographic ? 0 : -((float)at->y + 0.5f - p->cy) * p->inv_fy);
+    at->off = (int32_t)(CRV__FAST_PADDING - begin); /* the same column, before planes */
+    /* All at once: one after the other they would wait for their divisions. */
+    for (int32_t g = 0; g < count; g++)
+        far |=
+            crv__fast_group_fill(&groups[g], fast, p, depth + g * CRV__FAST_GROUP, phase);
+    for (int32_t g = 0; g < count; g++) {
+        at->m = (tile->first + g) * CRV__FAST_GROUP;
+        float *span =
+            crv__fast_span(out, at->m * CRV__FAST_PHASES - fast->left, at->y, row);
+        crv__fast_group_run(at, &groups[g], depth + g * CRV__FAST_GROUP, px,
+                            span + px * CRV__FAST_GROUP, method);
     }
     return far;
 }
 
 /* See crv__fast_kernel. */
-CRV__INLINE int crv__fast_row(const crv__frame *f, const crv__fast *fast, int32_t y,
-                              int32_t first, int32_t last, int32_t x0, int32_t width,
-                              float *out, crv__fast_method method)
+CRV__INLINE int crv__fast_run(const crv__frame *f, const crv__fast *fast,
+                              const crv__fast_tile *tile, const crv__plane *plane,
+                              crv__fast_method method)
 {
+    crv__fast_pixels at;
+    crv__fast_out out;
     int far = 0;
-    for (int32_t group = first; group < last; group++) {
-        const int32_t at = group * CRV__FAST_SPAN - fast->left - x0;
-        if (at >= 0 && at + CRV__FAST_SPAN <= width) {
-            far |= crv__fast_span(f, fast, y, group, out + at, method);
-            continue;
+    at.frame = f;
+    at.fast = fast;
+    out.plane = plane;
+    for (int32_t px = 0; px < CRV__FAST_PHASES; px++) {
+        for (int32_t y = tile->y0, row = 0; y < tile->y1; y += CRV__FAST_PHASES, row++) {
+            at.y = y;
+            far |= crv__fast_row(&at, tile, px, row, &out, method);
         }
-        float span[CRV__FAST_SPAN];
-        far |= crv__fast_span(f, fast, y, group, span, method);
-        for (int32_t i = at < 0 ? -at : 0; i < CRV__FAST_SPAN && at + i < width; i++)
-            out[at + i] = span[i];
     }
+    for (int32_t y = tile->y0, row = 0; y < tile->y1; y += CRV__FAST_PHASES, row++)
+        crv__fast_join(fast, tile, &out, y, row);
     return far;
 }
 
 /* Defines the kernel of a method from its static function accessibility(). */
 #define CRV__FAST_KERNEL(name)                                                           \
-    int CRV__NAME(name##_fast)(const crv__frame *f, const crv__fast *fast, int32_t y,    \
-                               int32_t first, int32_t last, int32_t x0, int32_t width,   \
-                               float *out);                                              \
-    int CRV__NAME(name##_fast)(const crv__frame *f, const crv__fast *fast, int32_t y,    \
-                               int32_t first, int32_t last, int32_t x0, int32_t width,   \
-                               float *out)                                               \
+    int CRV__NAME(name##_fast)(const crv__frame *f, const crv__fast *fast,               \
+                               const crv__fast_tile *tile, const crv__plane *out);       \
+    int CRV__NAME(name##_fast)(const crv__frame *f, const crv__fast *fast,               \
+                               const crv__fast_tile *tile, const crv__plane *out)        \
     {                                                                                    \
-        return crv__fast_row(f, fast, y, first, last, x0, width, out, accessibility);    \
+        return crv__fast_run(f, fast, tile, out, accessibility);                         \
     }
 
 #endif

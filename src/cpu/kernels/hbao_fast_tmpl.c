@@ -13,7 +13,7 @@
 
 /* What the code is specialised by. */
 typedef struct shape {
-    int32_t falloff, biased, horizon, orthographic, layers, paired;
+    int32_t falloff, biased, horizon, orthographic, layers, paired, near;
 } shape;
 
 /* What does not change from sample to sample. */
@@ -79,8 +79,10 @@ static inline __attribute__((always_inline)) void add_sample(
         valid = vm_and(valid, vf_lt(vf_zero() - tilt * sin_bias, cosine * cos_bias));
         tilt = tilt * cos_bias - cosine * sin_bias;
     }
-    const vf h = vf_where(valid, vf_fma_rsqrt(k, inverse, distance, tilt));
-    const vf risen = vf_max(h, walk->horizon), rise = risen - walk->horizon;
+    const vf h = vf_fma_rsqrt(k, inverse, distance, tilt);
+    const vf risen = s.biased ? vf_max(vf_where(valid, h), walk->horizon)
+                              : vf_max_within(walk->horizon, h, squared, w->limit);
+    const vf rise = risen - walk->horizon;
     if (s.falloff == CRV_FALLOFF_LINEAR && !s.horizon) {
         walk->occlusion = vf_fma(rise, distance, walk->occlusion); /* to be taken off */
     } else if (s.falloff != CRV_FALLOFF_NONE) {
@@ -105,12 +107,14 @@ static inline __attribute__((always_inline)) void add_place(
     const vf tilt =
         vf_fma(vf_set(sample->cosine), at->n.x, vf_set(sample->sine) * at->n.y)
         * vf_rsqrt_fair(length2);
+    const float *from[2] = {crv__fast_from(at, place, 0, s.near),
+                            crv__fast_from(at, place, 1, s.near)};
     for (int32_t layer = 0; layer < s.layers; layer++) {
-        const float *own = at->own + layer * w->layer_pitch;
-        add_sample(&walks[0], w, s, sample, crv__fast_read(own + place->offset[0]), along,
+        const ptrdiff_t skip = layer * w->layer_pitch;
+        add_sample(&walks[0], w, s, sample, crv__fast_read(at, from[0] + skip), along,
                    tilt);
         if (s.paired)
-            add_sample(&walks[1], w, s, sample, crv__fast_read(own + place->offset[1]),
+            add_sample(&walks[1], w, s, sample, crv__fast_read(at, from[1] + skip),
                        -along, -tilt);
     }
 }
@@ -161,8 +165,10 @@ static inline __attribute__((always_inline)) vf sum_of_walks(const crv__fast_pix
         return sum_of_walks(at, list, (shape){__VA_ARGS__});                             \
     }
 
-SHAPE(linear, CRV_FALLOFF_LINEAR, 0, 0, 0, 1, 1)
-SHAPE(hard, CRV_FALLOFF_NONE, 0, 0, 0, 1, 1)
+SHAPE(linear, CRV_FALLOFF_LINEAR, 0, 0, 0, 1, 1, 0)
+SHAPE(linear_near, CRV_FALLOFF_LINEAR, 0, 0, 0, 1, 1, 1)
+SHAPE(hard, CRV_FALLOFF_NONE, 0, 0, 0, 1, 1, 0)
+SHAPE(hard_near, CRV_FALLOFF_NONE, 0, 0, 0, 1, 1, 1)
 
 /* Everything else. */
 static __attribute__((noinline)) vf general(const crv__fast_pixels *at,
@@ -172,7 +178,7 @@ static __attribute__((noinline)) vf general(const crv__fast_pixels *at,
     return sum_of_walks(at, list,
                         (shape){p->falloff, p->sin_bias > 0,
                                 p->attenuation == CRV_ATTENUATION_HORIZON,
-                                p->orthographic, p->layers, at->fast->paired});
+                                p->orthographic, p->layers, at->fast->paired, 1});
 }
 
 static inline vf accessibility(const crv__fast_pixels *at, const crv__fast_list *list)
@@ -181,9 +187,9 @@ static inline vf accessibility(const crv__fast_pixels *at, const crv__fast_list 
     if (at->fast->paired && p->layers == 1 && !p->orthographic && !(p->sin_bias > 0)
         && p->attenuation == CRV_ATTENUATION_SLAB) {
         if (p->falloff == CRV_FALLOFF_LINEAR)
-            return linear(at, list);
+            return at->near ? linear_near(at, list) : linear(at, list);
         if (p->falloff == CRV_FALLOFF_NONE)
-            return hard(at, list);
+            return at->near ? hard_near(at, list) : hard(at, list);
     }
     return general(at, list);
 }

@@ -38,11 +38,12 @@ typedef struct crv__named_filter {
 /* A method's kernel in the fast structure, and its samples. 0 or 1 each: walks of steps
  * in directions, not the points of a pattern; an even number of directions or points
  * comes in opposite pairs; steps are rounded to even, not half up; those to the pixel
- * itself are kept. Projected radii are quantised to 2^fineness buckets an octave. */
+ * itself are kept; those of 32 pixels or more are rounded to multiples of the tile's 4.
+ * Projected radii are quantised to 2^fineness buckets an octave. */
 typedef struct crv__fast_kind {
     const char *name;
     crv__fast_kernel run;
-    int32_t is_walk, in_pairs, is_rounded, keeps_own, fineness;
+    int32_t is_walk, in_pairs, is_rounded, keeps_own, on_grid, fineness;
 } crv__fast_kind;
 
 typedef struct crv__kernels {

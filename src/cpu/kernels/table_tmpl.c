@@ -9,8 +9,8 @@
     void CRV__NAME(name)(const crv__frame *, const crv__plane *, const crv__plane *,     \
                          crv__tile);
 #define CRV__FAST(name, ...)                                                             \
-    int CRV__NAME(name##_fast)(const crv__frame *, const crv__fast *, int32_t, int32_t,  \
-                               int32_t, int32_t, int32_t, float *);
+    int CRV__NAME(name##_fast)(const crv__frame *, const crv__fast *,                    \
+                               const crv__fast_tile *, const crv__plane *);
 #include "cpu/kernels/list.h"
 #undef CRV__ESTIMATE
 #undef CRV__FILTER

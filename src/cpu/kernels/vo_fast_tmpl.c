@@ -21,7 +21,7 @@ static inline __attribute__((always_inline)) vf behind(const crv__fast_pixels *a
 static inline __attribute__((always_inline)) vf sum_of_lines(const crv__fast_pixels *at,
                                                              const crv__fast_list *list,
                                                              int32_t orthographic,
-                                                             int32_t paired)
+                                                             int32_t paired, int32_t near)
 {
     const crv__params *p = at->frame->params;
     const vf zero = vf_zero(), one = vf_set(1);
@@ -32,13 +32,11 @@ static inline __attribute__((always_inline)) vf sum_of_lines(const crv__fast_pix
     for (int32_t i = 0; i < list->counts[0]; i++) {
         const vf rest = vf_fma(vf_set(-list->samples[i].squared), unit2, one);
         const vf half = vf_where(vf_lt(zero, rest), rest * vf_rsqrt_fair(rest));
-        const int32_t *offset = list->places[i].offset;
-        sum = sum
-              + behind(at, crv__fast_read(at->own + offset[0]), half, unit, orthographic);
-        if (paired)
-            sum = sum
-                  + behind(at, crv__fast_read(at->own + offset[1]), half, unit,
-                           orthographic);
+        const crv__fast_place *place = &list->places[i];
+        for (int32_t side = 0; side < 1 + paired; side++) {
+            const vf depth = crv__fast_read(at, crv__fast_from(at, place, side, near));
+            sum = sum + behind(at, depth, half, unit, orthographic);
+        }
         total = total + half;
     }
     if (paired)
@@ -49,19 +47,26 @@ static inline __attribute__((always_inline)) vf sum_of_lines(const crv__fast_pix
 static __attribute__((noinline)) vf common(const crv__fast_pixels *at,
                                            const crv__fast_list *list)
 {
-    return sum_of_lines(at, list, 0, 1);
+    return sum_of_lines(at, list, 0, 1, 0);
+}
+
+static __attribute__((noinline)) vf common_near(const crv__fast_pixels *at,
+                                                const crv__fast_list *list)
+{
+    return sum_of_lines(at, list, 0, 1, 1);
 }
 
 static __attribute__((noinline)) vf general(const crv__fast_pixels *at,
                                             const crv__fast_list *list)
 {
-    return sum_of_lines(at, list, at->frame->params->orthographic, at->fast->paired);
+    return sum_of_lines(at, list, at->frame->params->orthographic, at->fast->paired, 1);
 }
 
 static inline vf accessibility(const crv__fast_pixels *at, const crv__fast_list *list)
 {
-    return at->fast->paired && !at->frame->params->orthographic ? common(at, list)
-                                                                : general(at, list);
+    if (!at->fast->paired || at->frame->params->orthographic)
+        return general(at, list);
+    return at->near ? common_near(at, list) : common(at, list);
 }
 
 CRV__FAST_KERNEL(vo)

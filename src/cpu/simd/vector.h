@@ -126,6 +126,48 @@ CRV__INLINE vf vf_fma_rsqrt(vf a, vf rough, vf root, vf c)
 #endif
 }
 
+/* The larger of a >= 0 and, where q < limit, b; at q = limit either. Where b is the NaN
+ * that an operation made out of numbers: a. */
+CRV__INLINE vf vf_max_within(vf a, vf b, vf q, vf limit)
+{
+#if defined(CRV__SIMD_AVX512)
+    /* Where limit - q is negative, b is made so. Numbers from 0 on are in the order of
+     * their bits, all others below them; and the ports that multiply are left alone. */
+    const __m512i sign = _mm512_set1_epi32(INT32_MIN);
+    const __m512i within =
+        _mm512_ternarylogic_epi32((__m512i)b, (__m512i)(limit - q), sign, 0xf8);
+    return (vf)_mm512_max_epi32((__m512i)a, within);
+#else
+    return vf_max(vf_select(vf_lt(q, limit), b, vf_zero()), a);
+#endif
+}
+
+/* How many lanes are set. */
+CRV__INLINE int32_t vm_count(vm mask)
+{
+#if defined(CRV__SIMD_AVX512)
+    return __builtin_popcount(mask);
+#else
+    int32_t count = 0;
+    for (int32_t i = 0; i < CRV__LANES; i++)
+        count -= ((vi)mask)[i];
+    return count;
+#endif
+}
+
+/* The largest lane. */
+CRV__INLINE int32_t vi_largest(vi a)
+{
+#if defined(CRV__SIMD_AVX512)
+    return _mm512_reduce_max_epi32((__m512i)a);
+#else
+    int32_t largest = a[0];
+    for (int32_t i = 1; i < CRV__LANES; i++)
+        largest = a[i] > largest ? a[i] : largest;
+    return largest;
+#endif
+}
+
 /* a where the mask is set, else 0. */
 CRV__INLINE vf vf_where(vm mask, vf a)
 {
