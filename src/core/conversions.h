@@ -26,6 +26,10 @@ typedef struct crv__conversions {
      * floats. */
     void (*depth_row)(const crv__depth_map *map, const float *from, ptrdiff_t stride,
                       int32_t y, int32_t count, float *out);
+    /* rotation (row by row) * v for the row's pixels, to out[3][0 .. count); a component
+     * is `channel` floats after the one before, a pixel `stride` floats. */
+    void (*rotated_row)(const float rotation[9], const float *from, ptrdiff_t stride,
+                        ptrdiff_t channel, int32_t count, float *const out[3]);
     /* Turns row y of normal[3] into unit normals that face the camera, reconstructed from
      * depth where there are none; has_normals 0: there are none at all. */
     void (*normals_row)(const crv__params *params, const crv__plane *depth,

@@ -127,15 +127,15 @@ static void take_normals_row(void *data, uint32_t row)
 {
     const normals_job *job = data;
     const int32_t y = (int32_t)row;
-    const float *m = job->rotation;
-    for (int32_t x = 0; x < job->gbuffer->desc.width; x++) {
-        const float nx = *crv_image_at(job->image, x, y, 0);
-        const float ny = *crv_image_at(job->image, x, y, 1);
-        const float nz = *crv_image_at(job->image, x, y, 2);
-        for (int i = 0; i < 3; i++)
-            *crv__plane_at(&job->gbuffer->normal[i], x, y) =
-                m[3 * i] * nx + m[3 * i + 1] * ny + m[3 * i + 2] * nz;
-    }
+    const crv_image *image = job->image;
+    float *out[3];
+    for (int i = 0; i < 3; i++)
+        out[i] = crv__plane_at(&job->gbuffer->normal[i], 0, y);
+    const crv__conversions *kernels = crv__cpu_conversions(job->gbuffer->context);
+    (kernels ? kernels->rotated_row : crv__rotated_row)(
+        job->rotation, crv_image_at(image, 0, y, 0),
+        image->pixel_stride / (ptrdiff_t)sizeof(float),
+        image->channel_stride / (ptrdiff_t)sizeof(float), job->gbuffer->desc.width, out);
 }
 
 crv_status crv__gbuffer_need_camera(const crv_gbuffer *g, const char *what)

@@ -83,6 +83,17 @@ static crv__vec3 face_camera(const crv__params *p, const crv__plane *depth, int3
     return crv__dot(bent, view) > 0 ? bent : view;
 }
 
+void crv__rotated_row(const float rotation[9], const float *from, ptrdiff_t stride,
+                      ptrdiff_t channel, int32_t count, float *const out[3])
+{
+    for (int32_t x = 0; x < count; x++) {
+        const float *v = from + x * stride;
+        for (int i = 0; i < 3; i++)
+            out[i][x] = rotation[3 * i] * v[0] + rotation[3 * i + 1] * v[channel]
+                        + rotation[3 * i + 2] * v[2 * channel];
+    }
+}
+
 void crv__normals_row(const crv__params *p, const crv__plane *depth,
                       const crv__plane *normal, int32_t has_normals, int32_t y)
 {

@@ -4,6 +4,8 @@
 #include "core/conversions.h"
 #include "cpu/kernels/window.h"
 
+enum { CHUNK = 256 };
+
 typedef struct pixels {
     const crv__params *params;
     const crv__plane *depth;
@@ -68,9 +70,21 @@ CRV__NOINLINE crv__v3 from_depth(const pixels *at)
     return normalized(cross(normalized(edge(at, 1, 0)), normalized(edge(at, 0, -1))));
 }
 
+/* Whether all lanes of `active` face the camera by far more than rounding could change:
+ * twice face_camera()'s least cosine, told without a root or a division. */
+CRV__INLINE int faces_clearly(const pixels *at, crv__v3 n, vm active)
+{
+    const vf cosine = -crv__v3_dot(n, at->P), square = crv__v3_dot(at->P, at->P);
+    const vm steep = vf_lt(square * vf_set(4e-6f), cosine * cosine);
+    const vm fits = vm_and(vf_lt(vf_set(1e-30f), square), vf_lt(vf_zero(), cosine));
+    return !vm_any(vm_and(active, vm_not(vm_and(steep, fits))));
+}
+
 /* face_camera(), of the lanes of `active`. */
 CRV__INLINE crv__v3 face_camera(const pixels *at, crv__v3 n, vm active)
 {
+    if (!at->params->orthographic && faces_clearly(at, n, active))
+        return n;
     const vf least = vf_set(1e-3f), zero = vf_zero();
     const crv__v3 view = at->params->orthographic
                              ? (crv__v3){zero, zero, vf_set(1)}
@@ -96,6 +110,39 @@ CRV__INLINE crv__v3 given(const crv__plane *normal, int32_t x, int32_t y)
     return normalized((crv__v3){crv__row_read(&normal[0], x, y, &inside),
                                 crv__row_read(&normal[1], x, y, &inside),
                                 crv__row_read(&normal[2], x, y, &inside)});
+}
+
+/* A loop that the compiler turns into vectors. */
+static void rotated(const float m[9], const float *restrict v, int32_t count,
+                    float *restrict x, float *restrict y, float *restrict z)
+{
+    const float m0 = m[0], m1 = m[1], m2 = m[2], m3 = m[3], m4 = m[4], m5 = m[5],
+                m6 = m[6], m7 = m[7], m8 = m[8];
+    for (int32_t i = 0; i < count; i++) {
+        const float a = v[3 * i], b = v[3 * i + 1], c = v[3 * i + 2];
+        x[i] = m0 * a + m1 * b + m2 * c;
+        y[i] = m3 * a + m4 * b + m5 * c;
+        z[i] = m6 * a + m7 * b + m8 * c;
+    }
+}
+
+void CRV__NAME(rotated_row)(const float rotation[9], const float *from, ptrdiff_t stride,
+                            ptrdiff_t channel, int32_t count, float *const out[3]);
+void CRV__NAME(rotated_row)(const float rotation[9], const float *from, ptrdiff_t stride,
+                            ptrdiff_t channel, int32_t count, float *const out[3])
+{
+    const int packed = stride == 3 && channel == 1;
+    float chunk[3 * CHUNK];
+    for (int32_t x = 0; x < count; x += CHUNK) {
+        const int32_t n = count - x < CHUNK ? count - x : CHUNK;
+        const float *v = from + x * stride;
+        for (int32_t i = 0; i < n && !packed; i++) {
+            chunk[3 * i] = v[i * stride];
+            chunk[3 * i + 1] = v[i * stride + channel];
+            chunk[3 * i + 2] = v[i * stride + 2 * channel];
+        }
+        rotated(rotation, packed ? v : chunk, n, out[0] + x, out[1] + x, out[2] + x);
+    }
 }
 
 void CRV__NAME(normals_row)(const crv__params *p, const crv__plane *depth,

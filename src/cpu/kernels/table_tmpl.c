@@ -47,12 +47,15 @@ static const crv__fast_kind FAST[] = {
 
 void CRV__NAME(depth_row)(const crv__depth_map *, const float *, ptrdiff_t, int32_t,
                           int32_t, float *);
+void CRV__NAME(rotated_row)(const float *, const float *, ptrdiff_t, ptrdiff_t, int32_t,
+                            float *const *);
 void CRV__NAME(normals_row)(const crv__params *, const crv__plane *, const crv__plane *,
                             int32_t, int32_t);
 
 extern const crv__kernels CRV__NAME(kernels);
-const crv__kernels CRV__NAME(kernels) = {ESTIMATES,
-                                         FILTERS,
-                                         FAST,
-                                         CRV__NAME(deal),
-                                         {CRV__NAME(depth_row), CRV__NAME(normals_row)}};
+const crv__kernels CRV__NAME(kernels) = {
+    ESTIMATES,
+    FILTERS,
+    FAST,
+    CRV__NAME(deal),
+    {CRV__NAME(depth_row), CRV__NAME(rotated_row), CRV__NAME(normals_row)}};
