@@ -136,7 +136,7 @@ refused 'view 2: "name" is that of'
 sed 's/flat.obj/none.obj/' <lists/views.json >lists/bad.json
 refused 'lists/none.obj: '
 echo '{"views": []}' >lists/bad.json
-refused 'has no list "views"'
+refused 'its list "views" is empty'
 echo '[1]' >lists/bad.json
 refused 'has no list "views"'
 echo '{"views": [1]}' >lists/bad.json

@@ -29,7 +29,7 @@ static inline float crv__slope(const crv__plane *depth, int32_t x, int32_t y,
         if (fabsf(difference) < fabsf(slope))
             slope = difference;
     }
-    return fabsf(slope) < CRV__STEEPEST ? slope : 0;
+    return fabsf(slope) < CRV_STEEPEST_SLOPE ? slope : 0;
 }
 
 static inline crv__centre crv__centre_at(const crv__frame *f, int32_t x, int32_t y)

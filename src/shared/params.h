@@ -16,7 +16,7 @@
 
 /* The steepest slope of depth from pixel to pixel that filters follow: a window's steps
  * along both axes cannot overflow. */
-#define CRV__STEEPEST 1e37f
+#define CRV_STEEPEST_SLOPE 1e37f
 
 struct crv__params {
     int32_t width, height; /* of the buffers, guard band included */

@@ -45,7 +45,7 @@ CRV__INLINE vf crv__block_slope(vf before, vf d, vf after)
     const vf backward = d - before, forward = after - d;
     const vf slope =
         vf_select(vf_lt(vf_abs(forward), vf_abs(backward)), forward, backward);
-    return vf_where(vf_lt(vf_abs(slope), vf_set(CRV__STEEPEST)), slope);
+    return vf_where(vf_lt(vf_abs(slope), vf_set(CRV_STEEPEST_SLOPE)), slope);
 }
 
 /* What a block reads, from its first pixel on. Depth and normals have rows of one length:

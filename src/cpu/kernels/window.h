@@ -49,7 +49,7 @@ CRV__INLINE vf crv__lanes_slope(const crv__plane *depth, int32_t x, int32_t y,
     const vf forward = vf_select(inside, after - d, infinity);
     const vf slope =
         vf_select(vf_lt(vf_abs(forward), vf_abs(backward)), forward, backward);
-    return vf_where(vf_lt(vf_abs(slope), vf_set(CRV__STEEPEST)), slope);
+    return vf_where(vf_lt(vf_abs(slope), vf_set(CRV_STEEPEST_SLOPE)), slope);
 }
 
 CRV__INLINE crv__window crv__window_at(const crv__frame *f, const crv__plane *input,

@@ -82,7 +82,7 @@ float slope_between(float before, float d, float after)
 {
     const float left = d - before, right = after - d;
     const float slope = abs(right) < abs(left) ? right : left;
-    return is_surface(abs(slope)) ? slope : 0;
+    return abs(slope) < CRV_STEEPEST_SLOPE ? slope : 0;
 }
 
 vec2 slope_along(int index, int step, vec2 d)

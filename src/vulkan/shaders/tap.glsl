@@ -56,7 +56,7 @@ float slope_along(int index, int step, float d)
     const float before = d - tile_surface[index - step].w;
     const float after = tile_surface[index + step].w - d;
     const float slope = abs(after) < abs(before) ? after : before;
-    return abs(slope) < CRV__STEEPEST ? slope : 0;
+    return abs(slope) < CRV_STEEPEST_SLOPE ? slope : 0;
 }
 
 /* The slope along the axes of which `axes` is 1. */
