@@ -168,7 +168,7 @@ bad 1 'report.json: its list .* is empty' report -o page2 --views page/report.js
 
 # A limit on the size of files is told as any full disk; nothing is left behind.
 (
-    ulimit -f 64 # OpenMP runtimes need a little for themselves
+    ulimit -f 1000 # half a megabyte: runtimes want some for themselves
     bad 1 'out.pfm: cannot be written' render $m --size 640x360 -o out.pfm
 )
 # What is replaced keeps its permissions.
