@@ -25,9 +25,9 @@ foreach(suite conformance closed_forms filters)
         $<TARGET_FILE:test_vulkan_agreement> $<TARGET_FILE:test_${suite}>)
     list(APPEND crevice_vulkan_tests vulkan_${suite})
 endforeach()
-set_tests_properties(test_vulkan_agreement vulkan_half_apart PROPERTIES
+set_tests_properties(test_vulkan_agreement PROPERTIES
     LABELS vulkan TIMEOUT 600 SKIP_RETURN_CODE 77)
-set_tests_properties(${crevice_vulkan_tests} PROPERTIES
+set_tests_properties(vulkan_half_apart ${crevice_vulkan_tests} PROPERTIES
     LABELS "vulkan;once" TIMEOUT 600 SKIP_RETURN_CODE 77)
 
 # vulkan_validated(NAME FEATURES PROGRAM...): under the validation layer.
