@@ -42,6 +42,11 @@ static const io__format *format_for_writing(const char *path, const crv_logger *
     return format;
 }
 
+bool io_keeps_windows(const char *path)
+{
+    return format_by_extension(path) == &io__format_exr;
+}
+
 static int open_for_reading(const char *path, const crv_logger *log, io__file *file)
 {
     struct stat status;

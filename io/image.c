@@ -138,3 +138,21 @@ int io__colour_channels(const io_image *image, int32_t index[3], const char *pat
     }
     return count;
 }
+
+void io_copy_window(const io_image *from, const float *source, const io_image *to,
+                    float *target)
+{
+    const int32_t dx = to->data_x - from->data_x, dy = to->data_y - from->data_y;
+    const int32_t first = dx < 0 ? -dx : 0;
+    const int32_t last = to->width < from->width - dx ? to->width : from->width - dx;
+    if (first >= last)
+        return;
+    for (int32_t y = 0; y < to->height; y++) {
+        const int32_t source_y = y + dy;
+        if (source_y < 0 || source_y >= from->height)
+            continue;
+        memcpy(target + (size_t)y * (size_t)to->width + first,
+               source + (ptrdiff_t)source_y * from->width + first + dx,
+               (size_t)(last - first) * sizeof *target);
+    }
+}

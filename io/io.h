@@ -86,6 +86,13 @@ typedef struct io_write_options {
 int io_write(const char *path, const io_image *image, const io_write_options *options,
              const crv_logger *log);
 
+/* Whether the format that the extension names keeps data and display window. */
+bool io_keeps_windows(const char *path);
+
+/* Copies the part of a channel that the data windows of both images cover. */
+void io_copy_window(const io_image *from, const float *source, const io_image *to,
+                    float *target);
+
 /* Whether io_write() could write there: known extension, folder exists and is writable,
  * path is not a folder. For finding out before a long computation. */
 int io_check_writable(const char *path, const crv_logger *log);

@@ -76,26 +76,6 @@ static bool same_window(const io_image *a, const io_image *b)
            && a->data_y == b->data_y;
 }
 
-/* Copies the part of the channel that both windows cover; the rest stays zero, which is
- * "no normal here". */
-static void copy_channel(const io_image *from, const float *source, const io_image *to,
-                         float *target)
-{
-    const int32_t dx = to->data_x - from->data_x, dy = to->data_y - from->data_y;
-    const int32_t first = dx < 0 ? -dx : 0;
-    const int32_t last = to->width < from->width - dx ? to->width : from->width - dx;
-    if (first >= last)
-        return;
-    for (int32_t y = 0; y < to->height; y++) {
-        const int32_t source_y = y + dy;
-        if (source_y < 0 || source_y >= from->height)
-            continue;
-        memcpy(target + (size_t)y * (size_t)to->width + first,
-               source + (ptrdiff_t)source_y * from->width + first + dx,
-               (size_t)(last - first) * sizeof *target);
-    }
-}
-
 /* For files whose parts were cropped one by one: depth decides the window. */
 static int read_apart(const char *path, const char *const *names, int32_t layers,
                       int32_t count, io_image *out, const crv_logger *log)
@@ -113,8 +93,9 @@ static int read_apart(const char *path, const char *const *names, int32_t layers
         both.channel_count = count;
         for (int32_t i = 0; i < count; i++) {
             const io_image *from = i < layers ? &depth : &normals;
-            copy_channel(from, from->channels[i < layers ? i : i - layers].data, &both,
-                         channels[i].data);
+            /* The rest stays zero, which is "no normal here". */
+            io_copy_window(from, from->channels[i < layers ? i : i - layers].data, &both,
+                           channels[i].data);
         }
         if (!same_window(&depth, &normals))
             io__info(log, path,

@@ -62,3 +62,48 @@ crv_status crv__commands_run(crv__commands *c, const crv__device *d)
         result = d->vk.ResetFences(d->device, 1, &c->fence);
     return result ? crv__device_fail(d, result, "run") : CRV_OK;
 }
+
+crv_status crv__stopwatch_create(crv__stopwatch *w, const crv__device *d)
+{
+    if (!d->timestamp_bits)
+        return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
+                         "context: the device has no timestamps; time it from outside");
+    const VkQueryPoolCreateInfo info = {.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+                                        .queryType = VK_QUERY_TYPE_TIMESTAMP,
+                                        .queryCount = 2};
+    const VkResult result =
+        d->vk.CreateQueryPool(d->device, &info, d->callbacks, &w->queries);
+    return result ? crv__device_fail(d, result, "query pool") : CRV_OK;
+}
+
+void crv__stopwatch_destroy(crv__stopwatch *w, const crv__device *d)
+{
+    d->vk.DestroyQueryPool(d->device, w->queries, d->callbacks);
+}
+
+void crv__stopwatch_start(const crv__stopwatch *w, const crv__device *d,
+                          VkCommandBuffer commands)
+{
+    d->vk.CmdResetQueryPool(commands, w->queries, 0, 2);
+    d->vk.CmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, w->queries,
+                             0);
+}
+
+void crv__stopwatch_stop(const crv__stopwatch *w, const crv__device *d,
+                         VkCommandBuffer commands, VkPipelineStageFlags2 stages)
+{
+    d->vk.CmdWriteTimestamp2(commands, stages, w->queries, 1);
+}
+
+crv_status crv__stopwatch_read(const crv__stopwatch *w, const crv__device *d,
+                               double *seconds)
+{
+    uint64_t ticks[2];
+    const VkResult result =
+        d->vk.GetQueryPoolResults(d->device, w->queries, 0, 2, sizeof ticks, ticks,
+                                  sizeof *ticks, VK_QUERY_RESULT_64_BIT);
+    if (result)
+        return crv__device_fail(d, result, "timestamps");
+    *seconds = crv__device_seconds(d, ticks[0], ticks[1]);
+    return CRV_OK;
+}

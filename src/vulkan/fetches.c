@@ -18,7 +18,7 @@ typedef struct fetching {
     crv__image plain, apart;
     VkDescriptorPool pool;
     VkDescriptorSet sets[2]; /* of plain, of apart */
-    VkQueryPool queries;     /* begin and end */
+    crv__stopwatch watch;
 } fetching;
 
 /* ---- what is fetched ---- */
@@ -40,7 +40,9 @@ static crv_status create_memory(fetching *f, const crv__device *d)
                                    APART * APART, 1};
     const VkBufferUsageFlags storage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                              target = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    crv_status status = crv__commands_create(&f->commands, d, "measurements");
+    crv_status status = crv__stopwatch_create(&f->watch, d);
+    if (status == CRV_OK)
+        status = crv__commands_create(&f->commands, d, "measurements");
     if (status == CRV_OK)
         status =
             crv__buffer_create(&f->staging, d, BYTES, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
@@ -148,16 +150,11 @@ static VkResult create_sets(fetching *f, const crv__device *d)
         return result;
     bind(f, d, &f->plain, f->sets[0]);
     bind(f, d, &f->apart, f->sets[1]);
-    const VkQueryPoolCreateInfo queries = {.sType =
-                                               VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
-                                           .queryType = VK_QUERY_TYPE_TIMESTAMP,
-                                           .queryCount = 2};
-    return d->vk.CreateQueryPool(d->device, &queries, d->callbacks, &f->queries);
+    return VK_SUCCESS;
 }
 
 static void destroy(fetching *f, const crv__device *d)
 {
-    d->vk.DestroyQueryPool(d->device, f->queries, d->callbacks);
     d->vk.DestroyDescriptorPool(d->device, f->pool, d->callbacks);
     crv__image_destroy(&f->apart, d);
     crv__image_destroy(&f->plain, d);
@@ -165,6 +162,7 @@ static void destroy(fetching *f, const crv__device *d)
     crv__buffer_destroy(&f->rows, d);
     crv__buffer_destroy(&f->staging, d);
     crv__commands_destroy(&f->commands, d);
+    crv__stopwatch_destroy(&f->watch, d);
 }
 
 /* ---- a measurement ---- */
@@ -174,42 +172,31 @@ static void record(const fetching *f, const crv__device *d, VkPipeline pipeline,
 {
     const VkCommandBuffer commands = f->commands.buffer;
     const crv__push push = {.out_width = WRITTEN, .out_height = WRITTEN};
-    d->vk.CmdResetQueryPool(commands, f->queries, 0, 2);
     d->vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
     d->vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
                                 d->pipelines->layout, 0, 1, &f->sets[set], 0, NULL);
     d->vk.CmdPushConstants(commands, d->pipelines->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                            sizeof push, &push);
-    d->vk.CmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, f->queries,
-                             0);
+    crv__stopwatch_start(&f->watch, d, commands);
     for (int i = 0; i < dispatches; i++) {
         d->vk.CmdDispatch(commands, WRITTEN / GROUP, WRITTEN / GROUP, 1);
-        crv__record_barrier(d, commands, CRV__WRITTEN,
-                            (crv__access){CRV__SAMPLED.stages,
-                                          CRV__SAMPLED.access | CRV__WRITTEN.access});
+        crv__record_between(d, commands);
     }
-    d->vk.CmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, f->queries,
-                             1);
+    crv__stopwatch_stop(&f->watch, d, commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
 }
 
 static crv_status run(fetching *f, const crv__device *d, VkPipeline pipeline, int set,
                       int dispatches, double *seconds)
 {
-    uint64_t ticks[2];
     crv_status status = crv__commands_begin(&f->commands, d);
     if (status)
         return status;
     record(f, d, pipeline, set, dispatches);
     status = crv__commands_run(&f->commands, d);
-    if (status)
-        return status;
-    const VkResult result =
-        d->vk.GetQueryPoolResults(d->device, f->queries, 0, 2, sizeof ticks, ticks,
-                                  sizeof *ticks, VK_QUERY_RESULT_64_BIT);
-    if (result)
-        return crv__device_fail(d, result, "timestamps");
-    *seconds = crv__device_seconds(d, ticks[0], ticks[1]) / dispatches;
-    return CRV_OK;
+    if (status == CRV_OK)
+        status = crv__stopwatch_read(&f->watch, d, seconds);
+    *seconds /= dispatches;
+    return status;
 }
 
 /* The first run says how many make up some milliseconds. */
@@ -247,9 +234,6 @@ crv_status crv__device_fetches(crv_context *context,
 {
     const crv__device *d = crv__device_of(context);
     fetching f = {0};
-    if (!d->timestamp_bits)
-        return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
-                         "context: the device has no timestamps; time it from outside");
     crv_status status = create_memory(&f, d);
     if (status == CRV_OK) {
         const VkResult result = create_sets(&f, d);

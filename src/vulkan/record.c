@@ -153,14 +153,12 @@ void crv__slot_record_layouts(crv__slot *s, VkCommandBuffer commands, crv__push 
 void crv__slot_record_estimate(crv__slot *s, VkCommandBuffer commands, crv__push *push)
 {
     const crv__program *p = s->program;
-    const crv__access next = {CRV__SAMPLED.stages,
-                              CRV__SAMPLED.access | CRV__WRITTEN.access};
     for (int32_t i = 0; i < p->parts; i++) {
         push->part_begin = i * p->part_size;
         push->part_end = push->part_begin + p->part_size;
         push->is_last_part = i + 1 == p->parts;
         if (i > 0)
-            crv__record_barrier(p->device, commands, CRV__WRITTEN, next);
+            crv__record_between(p->device, commands);
         crv__slot_record_step(s, commands, &p->estimate,
                               push->is_last_part ? s->estimate_set : s->part_set[i % 2],
                               push);

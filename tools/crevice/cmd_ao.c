@@ -226,10 +226,7 @@ static int check(const ao_settings *s, frame_range *range, report *r)
 {
     const char *mistake = depth_mistake(s);
 
-    if (mistake == NULL
-        && crv_option_applies(crv_option_find("characteristic"), s->common.options.method,
-                              NULL)
-        && s->common.options.characteristic == CRV_CHARACTERISTIC_FIELD)
+    if (mistake == NULL && estimate_is_of_relief(&s->common.options))
         mistake = "--characteristic field: frames have no relief; leave it out";
     if (mistake == NULL && s->vfov_deg.given && s->ortho.given)
         mistake = "--ortho: contradicts --vfov; give one of them";
@@ -311,7 +308,7 @@ static int write_result(const shot *t, const char *path, const io_frame *frame,
     ao->pixel_aspect = frame->image.pixel_aspect;
     ao->camera = frame->image.camera;
     /* Formats without windows get the whole picture. */
-    if (!facts_has_windows(path) && facts_fill_display(ao, r) != EXIT_DONE)
+    if (!io_keeps_windows(path) && facts_fill_display(ao, r) != EXIT_DONE)
         return EXIT_FAILED;
     return output_write(path, ao, &options, r);
 }

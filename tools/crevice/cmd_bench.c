@@ -407,12 +407,11 @@ static int check_json(const bench_settings *s, report *r)
 /* The numbers must not replace what is measured. */
 static int spare_inputs(const bench_settings *s, const views_list *views, report *r)
 {
-    int result = EXIT_DONE;
+    int result;
 
     if (s->json == NULL || to_stdout(s))
         return EXIT_DONE;
-    for (int32_t i = 0; i < s->inputs.count && result == EXIT_DONE; i++)
-        result = output_spare(s->json, s->inputs.value[i], r);
+    result = output_spare_all(s->json, &s->inputs, r);
     for (int32_t i = 0; i < views->model_count && result == EXIT_DONE; i++)
         result = output_spare(s->json, views->models[i].path, r);
     return result == EXIT_DONE ? output_spare(s->json, s->views, r) : result;

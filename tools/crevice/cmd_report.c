@@ -287,8 +287,8 @@ static int spare_inputs(const report_settings *s, report *r)
     for (int i = 0; i < 2 && result == EXIT_DONE; i++) {
         snprintf(path, sizeof path, "%s/%s", s->output, written[i]);
         result = output_spare(path, s->views, r);
-        for (int32_t m = 0; m < s->models.count && result == EXIT_DONE; m++)
-            result = output_spare(path, s->models.value[m], r);
+        if (result == EXIT_DONE)
+            result = output_spare_all(path, &s->models, r);
     }
     return result;
 }

@@ -4,6 +4,7 @@
 #include "device.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #ifdef _OPENMP
@@ -56,11 +57,32 @@ int estimate_plan(estimator *e, const crv_options *options, report *r)
                : EXIT_FAILED;
 }
 
+int estimate_depth(estimator *e, float **out, report *r)
+{
+    float *depth = malloc((size_t)e->desc.width * (size_t)e->desc.height * sizeof *depth);
+    crv_image view = crv_image_packed(depth, e->desc.width, e->desc.height, 1);
+
+    if (depth == NULL)
+        return report_no_memory(r);
+    if (!report_ok(r, crv_gbuffer_get_depth(e->gbuffer, 0, &view), "depth")) {
+        free(depth);
+        return EXIT_FAILED;
+    }
+    *out = depth;
+    return EXIT_DONE;
+}
+
 static bool reads(const crv_options *o, const char *key)
 {
     const crv_option *option = crv_option_find(key);
 
     return option != NULL && crv_option_applies(option, o->method, o->filter) != 0;
+}
+
+bool estimate_is_of_relief(const crv_options *options)
+{
+    return reads(options, "characteristic")
+           && options->characteristic == CRV_CHARACTERISTIC_FIELD;
 }
 
 /* "hbao 8x8, radius 1, bilateral13: 0.41 s", "vao 12 samples, radius ..." */

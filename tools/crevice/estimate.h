@@ -23,6 +23,13 @@ void estimate_fit(estimator *e, const crv_gbuffer_desc *desc);
 /* Makes the plan, where there is none of this radius yet. */
 int estimate_plan(estimator *e, const crv_options *options, report *r);
 
+/* Converted planar depth of layer 0 from e->gbuffer, of e->desc's size; background is
+ * infinite. The caller frees it. Returns an exit code. */
+int estimate_depth(estimator *e, float **out, report *r);
+
+/* Whether the options ask for a height field and nothing else. */
+bool estimate_is_of_relief(const crv_options *options);
+
 /* Runs the plan on e->gbuffer. *out gets one channel, AO; the caller frees it. */
 int estimate_run(estimator *e, io_image *out, report *r);
 

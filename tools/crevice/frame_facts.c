@@ -3,8 +3,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
-#include <strings.h>
 
 static bool same_desc(const crv_gbuffer_desc *a, const crv_gbuffer_desc *b)
 {
@@ -51,31 +49,21 @@ int facts_check_surface(estimator *e, const io_image *ao, const char *path, repo
 {
     const size_t count = (size_t)e->desc.width * (size_t)e->desc.height;
     bool surface = false;
-    float *depth;
+    float *depth = NULL;
+    int result;
 
     if (!is_open(ao))
         return EXIT_DONE;
-    depth = malloc(count * sizeof *depth);
-    if (depth == NULL)
-        return report_no_memory(r);
-    const crv_image view = crv_image_packed(depth, e->desc.width, e->desc.height, 1);
-    const bool got = report_ok(r, crv_gbuffer_get_depth(e->gbuffer, 0, &view), "depth");
-    for (size_t i = 0; i < count && got && !surface; i++)
+    result = estimate_depth(e, &depth, r);
+    for (size_t i = 0; i < count && result == EXIT_DONE && !surface; i++)
         surface = isfinite(depth[i]);
     free(depth);
-    if (got && !surface)
+    if (result == EXIT_DONE && !surface)
         report_warning(r,
                        "%s: shows nothing: every depth is negative, 0, not a number, or "
                        "background; check --depth, --depth-encoding and --background",
                        path);
-    return got ? EXIT_DONE : EXIT_FAILED;
-}
-
-bool facts_has_windows(const char *path)
-{
-    const char *dot = strrchr(path, '.');
-
-    return dot != NULL && strcasecmp(dot, ".exr") == 0;
+    return result;
 }
 
 int facts_fill_display(io_image *ao, report *r)
@@ -90,17 +78,7 @@ int facts_fill_display(io_image *ao, report *r)
         return EXIT_FAILED;
     for (size_t i = 0; i < (size_t)width * (size_t)height; i++)
         whole.channels[0].data[i] = 1.0f;
-    for (int32_t y = 0; y < ao->height; y++) {
-        const int32_t to = y + ao->data_y;
-        const int32_t left = ao->data_x > 0 ? ao->data_x : 0;
-        const int32_t right =
-            ao->data_x + ao->width < width ? ao->data_x + ao->width : width;
-        if (to < 0 || to >= height || left >= right)
-            continue;
-        memcpy(whole.channels[0].data + (size_t)to * (size_t)width + left,
-               ao->channels[0].data + (ptrdiff_t)y * ao->width + (left - ao->data_x),
-               (size_t)(right - left) * sizeof(float));
-    }
+    io_copy_window(ao, ao->channels[0].data, &whole, whole.channels[0].data);
     whole.pixel_aspect = ao->pixel_aspect;
     whole.camera = ao->camera;
     io_image_free(ao);

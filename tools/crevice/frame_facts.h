@@ -22,9 +22,6 @@ void facts_compare(frame_facts *first, const io_frame *frame, const char *path,
  * an exit code. */
 int facts_check_surface(estimator *e, const io_image *ao, const char *path, report *r);
 
-/* Whether the format of this name keeps data and display window. */
-bool facts_has_windows(const char *path);
-
 /* Makes the image's data window its display window; what it did not cover is open.
  * Returns an exit code. */
 int facts_fill_display(io_image *ao, report *r);

@@ -55,6 +55,15 @@ int output_spare(const char *path, const char *input, report *r)
     return EXIT_USAGE;
 }
 
+int output_spare_all(const char *path, const arg_texts *inputs, report *r)
+{
+    int result = EXIT_DONE;
+
+    for (int32_t i = 0; i < inputs->count && result == EXIT_DONE; i++)
+        result = output_spare(path, inputs->value[i], r);
+    return result;
+}
+
 int output_check(const char *path, const char *input, report *r)
 {
     const int result = output_spare(path, input, r);

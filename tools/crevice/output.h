@@ -12,6 +12,9 @@ bool output_same(const char *a, const char *b);
 /* EXIT_DONE, or an error line where writing there would replace `input` (NULL: none). */
 int output_spare(const char *path, const char *input, report *r);
 
+/* The same for each of them. */
+int output_spare_all(const char *path, const arg_texts *inputs, report *r);
+
 /* Whether the picture could be written there, and would not replace `input` (NULL:
  * there is none). Returns an exit code; meant for before the work. */
 int output_check(const char *path, const char *input, report *r);

@@ -58,22 +58,16 @@ static bool find_median(const float *values, size_t count, double *median)
     return true;
 }
 
-/* The median of the finite depths, 0 where there is none. Depth has been converted by
- * then, whatever its encoding was. */
+/* The median of the finite depths, 0 where there is none. */
 static int median_depth(estimator *e, double *out, report *r)
 {
-    size_t count = (size_t)e->desc.width * (size_t)e->desc.height;
+    float *depth = NULL;
     bool done;
-    float *depth = malloc(count * sizeof *depth);
-    crv_image view = crv_image_packed(depth, e->desc.width, e->desc.height, 1);
+    int result = estimate_depth(e, &depth, r);
 
-    if (depth == NULL)
-        return report_no_memory(r);
-    if (!report_ok(r, crv_gbuffer_get_depth(e->gbuffer, 0, &view), "depth")) {
-        free(depth);
-        return EXIT_FAILED;
-    }
-    done = find_median(depth, count, out);
+    if (result != EXIT_DONE)
+        return result;
+    done = find_median(depth, (size_t)e->desc.width * (size_t)e->desc.height, out);
     free(depth);
     return done ? EXIT_DONE : report_no_memory(r);
 }

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "estimate.h"
 #include "render.h"
 
 /* In the order of crv_wrap. */
@@ -60,8 +61,7 @@ int relief_check(const render_settings *s, report *r)
     if (s->height_map != NULL)
         report_error(r, "--height-map: has no scale; add --height-scale, scene units for "
                         "a height of 1");
-    else if (reads_relief(s->view.common.options.method)
-             && s->view.common.options.characteristic == CRV_CHARACTERISTIC_FIELD)
+    else if (estimate_is_of_relief(&s->view.common.options))
         report_error(r, "--characteristic field: there is no relief; add --height-map "
                         "FILE");
     else if (s->height_scale.given || s->height_wrap.given)

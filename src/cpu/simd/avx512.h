@@ -166,12 +166,6 @@ CRV__INLINE vf vf_of(vi a)
     return _mm512_cvtepi32_ps((__m512i)a);
 }
 
-/* min(|a|, |b|) */
-CRV__INLINE vf vf_min_abs(vf a, vf b)
-{
-    return _mm512_range_ps(a, b, 2 << 2 | 2);
-}
-
 CRV__INLINE vf vf_gather(const float *base, vi index, vm mask)
 {
     return _mm512_mask_i32gather_ps(_mm512_setzero_ps(), mask, (__m512i)index, base, 4);

@@ -25,7 +25,6 @@
  *   vi_below                 0 <= a < n, n > 0
  *   vf_gather                base[index]; 0 and no access where the mask is clear, though
  *                            base[0] may be read
- *   vf_min_abs               min(|a|, |b|); b where a is a NaN
  *   vf_split4 vf_join4       4 * CRV__LANES consecutive floats to and from the four
  *                            vectors of every fourth
  */
@@ -179,12 +178,15 @@ CRV__INLINE vf vf_abs(vf a)
     return vf_of_bits(vf_bits(a) & vi_set(0x7fffffff));
 }
 
-#if !defined(CRV__SIMD_AVX512)
+/* The smaller of |a| and b >= 0; b where a is a NaN. */
 CRV__INLINE vf vf_min_abs(vf a, vf b)
 {
+#if defined(CRV__SIMD_AVX512)
+    return _mm512_range_ps(a, b, 2 << 2 | 2);
+#else
     return vf_min(vf_abs(a), b);
-}
 #endif
+}
 
 CRV__INLINE vf vf_clamp01(vf a)
 {
