@@ -15,7 +15,7 @@
 #if defined(MADV_HUGEPAGE)
 /* Samples of a large picture lie in hundreds of its rows, each in pages of its own: with
  * small pages their addresses are looked up anew all the time. */
-enum { HUGE_PAGE = 1 << 21, LEAST_HUGE = 4 * HUGE_PAGE };
+enum { HUGE_PAGE = 1 << 21, LEAST_HUGE = 2 * HUGE_PAGE };
 
 static void *allocate_huge(size_t size)
 {

@@ -104,7 +104,7 @@ CRV__INLINE void crv__lanes_noise(const crv__frame *f, crv__pixels *at, int32_t 
 }
 
 /* Surface and normals of the pixels from (x, y) on, `count` of them, at most
- * CRV__LANES. */
+ * CRV__LANES. Asks for the normals two rows down: tiles are too narrow to be foreseen. */
 CRV__INLINE void crv__lanes_surface(const crv__frame *f, crv__pixels *pixels, int32_t x,
                                     int32_t y, int32_t count)
 {
@@ -119,6 +119,8 @@ CRV__INLINE void crv__lanes_surface(const crv__frame *f, crv__pixels *pixels, in
     at.n.y = vf_where(at.active, vf_load_n(crv__plane_at(&f->normal[1], x, y), count));
     at.n.z = vf_select(at.active, vf_load_n(crv__plane_at(&f->normal[2], x, y), count),
                        vf_set(1));
+    for (int32_t i = 0; i < 3; i++)
+        __builtin_prefetch(crv__plane_at(&f->normal[i], x, y) + 2 * f->normal[i].pitch);
     *pixels = at;
 }
 

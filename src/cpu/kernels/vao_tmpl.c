@@ -2,22 +2,29 @@
 /* methods/vao.c for the lanes of a vector: fields are not for it. */
 #include "cpu/kernels/march.h"
 
-/* The tangent sphere, as methods/pipe.h has it, and what its pipes share. Places are
- * reckoned from P: pixels from its own, u to the right and v down, depths from `near`. */
+/*
+ * The tangent sphere, as methods/pipe.h has it, and what its pipes share. Places are
+ * reckoned from P: pixels from its own, u to the right and v down. Lengths are in units
+ * of P's depth d (orthographic: of the scene), so that o = (x, y) is a pipe's step on the
+ * image plane at unit depth, ray = (ray_x, ray_y, -1) the view ray of P, and c the centre
+ * from P, |c| the radius. A pipe P + (o, 0) + t w, w = ray + (o, 0), is in the sphere for
+ * t within `half` of `middle`:
+ *     middle = (c - o).w / w.w,    half^2 = middle^2 + (2 c.o - o.o) / w.w
+ * where nothing is large that cancels. Orthographic: w = (0, 0, -1).
+ */
 typedef struct sphere {
-    crv__v3 offset;      /* of the centre from P */
-    vf unit;             /* depth of the centre */
+    vf unit;             /* depth of the centre, or 1: scene units */
     vf scale_x, scale_y; /* px per scene unit there */
     vf u, v;             /* of the centre, px */
-    vf ray_x, ray_y;     /* of P's view ray (x, y, -1) */
-    vf pixel_x, pixel_y; /* at P's depth, scene units */
-    vf radius2;
-    vf near;  /* see crv__pipe_outside() */
-    vi index; /* of P's texel */
+    crv__v3 c;
+    vf ray_x2, ray_y2, ray2; /* 2 ray; ray.ray */
+    vf b, bx, by;            /* (c - o).w = b + x bx + y by - o.o */
+    vf near, inverse;        /* see crv__pipe_outside(), and 1 / d */
+    vi index;                /* of P's texel */
 } sphere;
 
-/* The sphere's part on the view ray of texel (u, v): `middle` +- `half` by depth, from
- * P's. Half is 0 where the ray misses the sphere. */
+/* The sphere's part on the view ray of texel (u, v). Half is next to 0 where the ray
+ * misses the sphere. */
 typedef struct chord {
     vf middle, half;
 } chord;
@@ -29,49 +36,48 @@ CRV__INLINE sphere sphere_at(const crv__frame *f, crv__shape shape, const crv__p
     const vf one = vf_set(1), x = vf_of(at->x), y = vf_set((float)at->y);
     const crv__v3 offset = {at->n.x * vf_set(radius), at->n.y * vf_set(radius),
                             at->n.z * vf_set(radius)};
-    sphere s = {.offset = offset, .near = at->depth * vf_set(1 - 2e-6f)};
+    sphere s = {.near = at->depth * vf_set(1 - 2e-6f), .inverse = one, .c = offset};
     s.unit = shape.orthographic ? one : at->depth - offset.z;
     const vf inverse = one / s.unit;
     s.scale_x = vf_set(p->fx) * inverse;
     s.scale_y = vf_set(p->fy) * inverse;
     s.u = vf_set(p->cx) + (at->P.x + offset.x) * s.scale_x - x;
     s.v = vf_set(p->cy) - (at->P.y + offset.y) * s.scale_y - y;
-    s.pixel_x = vf_set(p->inv_fx);
-    s.pixel_y = vf_set(p->inv_fy);
-    s.ray_x = s.ray_y = vf_zero();
+    s.b = -offset.z;
     if (!shape.orthographic) {
-        s.pixel_x = s.pixel_x * at->depth;
-        s.pixel_y = s.pixel_y * at->depth;
-        s.ray_x = (x + vf_set(0.5f - p->cx)) * vf_set(p->inv_fx);
-        s.ray_y = (y + vf_set(0.5f - p->cy)) * vf_set(-p->inv_fy);
+        s.inverse = one / at->depth;
+        s.c = (crv__v3){offset.x * s.inverse, offset.y * s.inverse, offset.z * s.inverse};
+        const vf ray_x = at->P.x * s.inverse, ray_y = at->P.y * s.inverse;
+        s.ray2 = vf_fma(ray_x, ray_x, vf_fma(ray_y, ray_y, one));
+        s.ray_x2 = ray_x + ray_x;
+        s.ray_y2 = ray_y + ray_y;
+        s.b = vf_fma(s.c.x, ray_x, vf_fma(s.c.y, ray_y, -s.c.z));
+        s.bx = s.c.x - ray_x;
+        s.by = s.c.y - ray_y;
     }
-    s.radius2 = vf_set(radius * radius);
     s.index = crv__lanes_index(&f->depth[0], at->x, vi_set(at->y));
     return s;
 }
 
-/* crv__pipe_through(): |t ray - to| = radius with ray = (ray_x, ray_y, -1). */
+/* crv__pipe_through() */
 CRV__INLINE chord chord_through(const crv__params *p, crv__shape shape, const sphere *s,
                                 vf u, vf v)
 {
-    const vf x = vf_fma(u, -s->pixel_x, s->offset.x);
-    const vf y = vf_fma(v, s->pixel_y, s->offset.y);
-    chord c = {-s->offset.z, vf_fma(-x, x, vf_fma(-y, y, s->radius2))};
-    if (!shape.orthographic) {
-        const vf ray_x = vf_fma(u, vf_set(p->inv_fx), s->ray_x);
-        const vf ray_y = vf_fma(v, vf_set(-p->inv_fy), s->ray_y);
-        const vf squared = vf_fma(ray_x, ray_x, vf_fma(ray_y, ray_y, vf_set(1)));
-        const vf inverse = vf_rcp(squared);
-        c.middle = vf_fma(x, ray_x, vf_fma(y, ray_y, c.middle)) * inverse;
-        /* About the point nearest to the centre: on the way there and back much may
-         * cancel. */
-        const crv__v3 miss = {vf_fma(-c.middle, ray_x, x), vf_fma(-c.middle, ray_y, y),
-                              s->offset.z + c.middle};
-        c.half = vf_fma(-miss.x, miss.x, vf_fma(-miss.y, miss.y, s->radius2));
-        c.half = vf_fma(-miss.z, miss.z, c.half) * inverse;
+    const vf x = u * vf_set(p->inv_fx), y = v * vf_set(-p->inv_fy);
+    const vf squared = vf_fma(x, x, y * y);
+    const vf rest = vf_fma(x, s->c.x + s->c.x, vf_fma(y, s->c.y + s->c.y, -squared));
+    chord c = {s->b, rest};
+    if (shape.orthographic) {
+        c.half = vf_fma(s->c.z, s->c.z, rest);
+    } else {
+        const vf inverse = vf_rcp_fair(
+            vf_fma(x, s->ray_x2, vf_fma(y, s->ray_y2, s->ray2 + squared)));
+        c.middle = vf_fma(x, s->bx, vf_fma(y, s->by, s->b - squared)) * inverse;
+        c.half = vf_fma(c.middle, c.middle, rest * inverse);
     }
-    c.half = vf_max(c.half, vf_zero());
-    c.half = crv__lanes_root(c.half);
+    const vf least_normal = vf_set(0x1p-126f);
+    c.half = vf_max(c.half, least_normal);
+    c.half = c.half * vf_rsqrt_fair(c.half);
     return c;
 }
 
@@ -83,7 +89,8 @@ CRV__INLINE vf open_part(const crv__frame *f, crv__shape shape, const sphere *s,
     vf open = half, from = -half;
     for (int32_t layer = 0; layer < shape.layers; layer += 2) {
         const vf depth = vf_gather(f->depth[layer].data, index, on);
-        const vf front = vf_max(vf_min((depth - s->near) - c->middle, half), -half);
+        const vf behind = vf_fma(depth - s->near, s->inverse, -c->middle);
+        const vf front = vf_max(vf_min(behind, half), -half);
         if (layer == 0)
             open = front;
         else
@@ -92,42 +99,76 @@ CRV__INLINE vf open_part(const crv__frame *f, crv__shape shape, const sphere *s,
             return shape.within ? open : vf_select(on, open, half);
         /* Where the front is behind the end, so is the back: nothing is added. */
         const vf back = vf_gather(f->depth[layer + 1].data, index, on) - s->near;
-        from = vf_max(from, vf_select(vf_lt(front, half), back - c->middle, half));
+        from = vf_max(from, vf_select(vf_lt(front, half),
+                                      vf_fma(back, s->inverse, -c->middle), half));
     }
     return vf_select(on, open + vf_max(half - from, vf_zero()), half);
+}
+
+/* What all pipes of a sphere come to. */
+typedef struct sums {
+    vf open, halves; /* less half of the chords; half of the chords */
+} sums;
+
+/* Whether the spheres are before the eye, and none so large that texels would not fit
+ * into integers. */
+CRV__INLINE int all_before(const crv__params *p, const sphere *s, vm active)
+{
+    const vf radius = vf_set(0.5001f * p->radius);
+    const vm before = vm_and(vf_lt(radius, s->unit),
+                             vm_and(vf_lt(radius * s->scale_x, vf_set(1e8f)),
+                                    vf_lt(radius * s->scale_y, vf_set(1e8f))));
+    return !vm_any(vm_and(active, vm_not(before)));
+}
+
+CRV__INLINE sums sums_of(const crv__frame *f, crv__shape shape, const crv__pixels *at,
+                         const sphere *s, int before)
+{
+    const crv__params *p = f->params;
+    const int32_t pitch = (int32_t)f->depth[0].pitch;
+    /* Whole numbers that a float holds. */
+    const int is_small = shape.within && pitch <= (1 << 24) / p->height;
+    const vf far_px = vf_set(1e9f);
+    sums all = {vf_zero(), vf_zero()};
+    for (int32_t i = 0; i < p->samples; i++) {
+        vf x, y;
+        crv__lanes_point(at, i, &x, &y);
+        const vf u = vf_floor(s->u + x * s->scale_x), v = vf_floor(s->v - y * s->scale_y);
+        const vi du = vi_trunc(u), dv = vi_trunc(v);
+        const vi step = is_small ? vi_trunc(vf_fma(v, vf_set((float)pitch), u))
+                                 : vi_add(du, vi_mul(dv, vi_set(pitch)));
+        const vi index = vi_add(s->index, step);
+        const chord c = chord_through(p, shape, s, u, v);
+        vm in = at->active, on = in;
+        if (!before) {
+            in = vm_and(in, vm_and(vf_lt(vf_abs(u), far_px), vf_lt(vf_abs(v), far_px)));
+            in = vm_and(in, vf_lt(vf_zero(), s->unit));
+            if (!shape.orthographic)
+                in = vm_and(in, vf_lt(c.half - c.middle, vf_set(1)));
+        }
+        if (!shape.within) {
+            on = vm_and(in, vi_below(vi_add(at->x, du), vi_set(p->width)));
+            on = vm_and(on, vi_below(vi_add(vi_set(at->y), dv), vi_set(p->height)));
+        }
+        const vf part = p->use_depth ? open_part(f, shape, s, &c, index, on) : c.half;
+        all.open = all.open + (before ? part : vf_where(in, part));
+        all.halves = all.halves + (before ? c.half : vf_where(in, c.half));
+    }
+    return all;
 }
 
 CRV__INLINE vf accessibility(const crv__frame *f, crv__shape shape, const crv__pixels *at)
 {
     const crv__params *p = f->params;
     const sphere s = sphere_at(f, shape, at);
-    const vi pitch = vi_set((int32_t)f->depth[0].pitch);
-    const vf far_px = vf_set(1e9f);
-    vf open = vf_zero(), halves = vf_zero();
-    for (int32_t i = 0; i < p->samples; i++) {
-        vf x, y;
-        crv__lanes_point(at, i, &x, &y);
-        const vf u = vf_floor(s.u + x * s.scale_x), v = vf_floor(s.v - y * s.scale_y);
-        const vi du = vi_trunc(u), dv = vi_trunc(v);
-        const vi index = vi_add(vi_add(s.index, du), vi_mul(dv, pitch));
-        const chord c = chord_through(p, shape, &s, u, v);
-        vm in = at->active, on = in;
-        if (!shape.within) {
-            in = vm_and(in, vm_and(vf_lt(vf_abs(u), far_px), vf_lt(vf_abs(v), far_px)));
-            in = vm_and(in, vf_lt(vf_zero(), s.unit));
-            if (!shape.orthographic)
-                in = vm_and(in, vf_lt(vf_zero(), at->depth + (c.middle - c.half)));
-            on = vm_and(in, vi_below(vi_add(at->x, du), vi_set(p->width)));
-            on = vm_and(on, vi_below(vi_add(vi_set(at->y), dv), vi_set(p->height)));
-        }
-        const vf part = p->use_depth ? open_part(f, shape, &s, &c, index, on) : c.half;
-        open = open + (shape.within ? part : vf_where(in, part));
-        halves = halves + (shape.within ? c.half : vf_where(in, c.half));
-    }
-    open = open + halves;
+    const sums all = shape.within || all_before(p, &s, at->active)
+                         ? sums_of(f, shape, at, &s, 1)
+                         : sums_of(f, shape, at, &s, 0);
+    const vf open = all.open + all.halves, whole = all.halves + all.halves;
     if (p->normaliser == CRV_NORMALISER_ANALYTIC)
-        return open / vf_set(2.0f / 3.0f * p->radius * (float)p->samples);
-    return vf_select(vf_lt(vf_zero(), halves), open / (halves + halves), vf_set(1));
+        return open / (s.inverse * vf_set(2.0f / 3.0f * p->radius * (float)p->samples));
+    /* Chords that there are not come to 1e-19 each. */
+    return vf_select(vf_lt(vf_set(1e-15f), whole), open / whole, vf_set(1));
 }
 
 CRV__INLINE int within(const crv__frame *f, const crv__pixels *at)
