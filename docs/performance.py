@@ -409,9 +409,10 @@ Millions of pixels a second; the columns after them are of `{best}`.
 ## Fast and exact
 
 By default kernels may move samples by a part of a pixel's footprint, so that neighbouring pixels read side
-by side; with `--exact` they sample where the plain code does. `crevice report --only structure` shows the
-errors and pictures of both. Millions of pixels a second, `{best}`. Where a method has one structure only,
-the ratio is 1 but for the machine's moods.
+by side (`hbao`, `alchemy`, `vo`), or round positions otherwise (`hsao`, `raymarch`, `containment`); with
+`--exact` they sample where the plain code does. `crevice report --only structure` shows the errors and pictures
+of both. Millions of pixels a second, `{best}`. `vao` and `ssao` have one way only: their ratio is 1 but for
+the machine's moods.
 
 {exact}
 ## Threads

@@ -28,9 +28,10 @@ if command -v python3 >/dev/null; then
         python3 -c 'import json, sys
 report = json.load(open(sys.argv[1]))
 rows = report["structures"]
-assert len(rows) == 6, rows
+methods = "hbao", "alchemy", "vo", "containment", "hsao", "raymarch"
+assert len(rows) == 2 * len(methods), rows
 assert {(r["method"], r["filtered"]) for r in rows} == {
-    (m, f) for m in ("hbao", "alchemy", "vo") for f in (False, True)}, rows
+    (m, f) for m in methods for f in (False, True)}, rows
 for row in rows:
     assert row["rmse_exact"] > 0 and row["ms_fast"] > 0 and row["ms_exact"] > 0, row
     assert row["holds"] == (row["rmse_fast"] <= 1.01 * row["rmse_exact"]), row

@@ -14,7 +14,7 @@ rows = json.load(open("page/report.json"))["structures"]
 for r in rows:
     print(r["view"], r["method"], "filtered" if r["filtered"] else "unfiltered",
           "fast %.5f, exact %.5f" % (r["rmse_fast"], r["rmse_exact"]))
-moved = [r for r in rows if r["rmse_fast_to_exact"] > 0]
+moved = [r for r in rows if r["rmse_fast_to_exact"] > 0] # or differently rounded
 worse = [r for r in rows if r["rmse_fast"] > 1.01 * r["rmse_exact"]]
 least = int(sys.argv[1]) * 3 * 2
 if len(moved) < least:

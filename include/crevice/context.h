@@ -61,7 +61,8 @@ typedef struct crv_context_desc {
                           is available is, and CRV_ISA_SCALAR where none is. 0 (default):
                           all */
     /* CPU only. 1: sampling points exactly where the scalar code has them. 0 (default):
-     * kernels may move them a little where that is faster and measured to be no worse. */
+     * kernels may move them a little, or round them otherwise, where that is faster and
+     * measured to be no worse. */
     int32_t exact;
     crv_device device;    /* default CRV_DEVICE_CPU */
     int32_t device_index; /* Vulkan: as crv_vulkan_device_info() counts; default 0 */

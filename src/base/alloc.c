@@ -13,14 +13,16 @@
 #endif
 
 #if defined(MADV_HUGEPAGE)
-/* Samples of a large picture lie in hundreds of its rows, each in pages of its own: with
- * small pages their addresses are looked up anew all the time. */
-enum { HUGE_PAGE = 1 << 21, LEAST_HUGE = 2 * HUGE_PAGE };
+/* Samples of a picture lie in hundreds of its rows, each in pages of its own: with small
+ * pages their addresses are looked up anew all the time. The last huge page is left out
+ * where it would mostly stand empty. */
+enum { HUGE_PAGE = 1 << 21 };
 
 static void *allocate_huge(size_t size)
 {
-    const size_t whole = (size + HUGE_PAGE - 1) / HUGE_PAGE * HUGE_PAGE;
-    void *memory = aligned_alloc(HUGE_PAGE, whole);
+    const size_t up = (size + HUGE_PAGE - 1) / HUGE_PAGE * HUGE_PAGE;
+    const size_t whole = up - size <= size / 4 ? up : size / HUGE_PAGE * HUGE_PAGE;
+    void *memory = aligned_alloc(HUGE_PAGE, up);
     if (memory) /* advice only: where it is not taken, pages are small */
         (void)madvise(memory, whole, MADV_HUGEPAGE);
     return memory;
@@ -34,7 +36,7 @@ static void *default_allocate(void *user, size_t size, size_t alignment)
     return _aligned_malloc(size, alignment);
 #else
 #if defined(MADV_HUGEPAGE)
-    if (size >= LEAST_HUGE && alignment <= HUGE_PAGE)
+    if (size >= HUGE_PAGE && alignment <= HUGE_PAGE)
         return allocate_huge(size);
 #endif
     return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);

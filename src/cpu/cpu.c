@@ -185,8 +185,8 @@ static void estimate(const crv__work *work, const crv__plane *out)
     crv__fast_state *fast = work->frame->params->use_field ? NULL : work->state;
     tiles t = {.work = work,
                .method = method,
-               .estimate_kernel =
-                   crv__kernels_estimate(kernels_for(work), method->info.name),
+               .estimate_kernel = crv__kernels_estimate(
+                   kernels_for(work), method->info.name, work->setup->context->exact),
                .out = out,
                .row = estimate_row};
     if (fast) {

@@ -93,14 +93,19 @@ const crv__conversions *crv__cpu_conversions(const crv_context *context)
     return kernels ? &kernels->conversions : NULL;
 }
 
-crv__estimate_kernel crv__kernels_estimate(const crv__kernels *kernels, const char *name)
+static crv__estimate_kernel named(const crv__named_estimate *e, const char *name)
 {
-    for (const crv__named_estimate *e = kernels ? kernels->estimates : NULL; e && e->name;
-         e++) {
-        if (strcmp(e->name, name) == 0)
-            return e->run;
-    }
-    return NULL;
+    while (e->name && strcmp(e->name, name) != 0)
+        e++;
+    return e->run;
+}
+
+crv__estimate_kernel crv__kernels_estimate(const crv__kernels *kernels, const char *name,
+                                           int exact)
+{
+    const crv__estimate_kernel lean =
+        kernels && !exact ? named(kernels->lean, name) : NULL;
+    return lean || !kernels ? lean : named(kernels->estimates, name);
 }
 
 crv__filter_kernel crv__kernels_filter(const crv__kernels *kernels, const char *name)

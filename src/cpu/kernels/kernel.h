@@ -48,6 +48,7 @@ typedef struct crv__fast_kind {
 
 typedef struct crv__kernels {
     const crv__named_estimate *estimates; /* end with a NULL name */
+    const crv__named_estimate *lean;      /* not rounded as the scalar code */
     const crv__named_filter *filters;
     const crv__fast_kind *fast;
     crv__fast_deal_kernel deal;

@@ -35,3 +35,4 @@ CRV__INLINE int within(const crv__frame *f, const crv__pixels *at)
 }
 
 CRV__ESTIMATE_KERNEL(raymarch, 1)
+CRV__LEAN_KERNEL(raymarch, 1)

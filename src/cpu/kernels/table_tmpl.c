@@ -5,6 +5,7 @@
 
 #define CRV__ESTIMATE(name)                                                              \
     void CRV__NAME(name)(const crv__frame *, int32_t, int32_t, int32_t, float *);
+#define CRV__LEAN(name) CRV__ESTIMATE(name##_lean)
 #define CRV__FILTER(name)                                                                \
     void CRV__NAME(name)(const crv__frame *, const crv__plane *, const crv__plane *,     \
                          crv__tile);
@@ -13,6 +14,7 @@
                                const crv__fast_tile *, const crv__plane *);
 #include "cpu/kernels/list.h"
 #undef CRV__ESTIMATE
+#undef CRV__LEAN
 #undef CRV__FILTER
 #undef CRV__FAST
 
@@ -20,26 +22,31 @@ void CRV__NAME(deal)(const crv__frame *, const crv__fast *, int32_t);
 
 static const crv__named_estimate ESTIMATES[] = {
 #define CRV__ESTIMATE(name) {#name, CRV__NAME(name)},
+#define CRV__LEAN(name)
 #define CRV__FILTER(name)
 #define CRV__FAST(...)
 #include "cpu/kernels/list.h"
 #undef CRV__ESTIMATE
+#undef CRV__LEAN
+    {0}};
+
+static const crv__named_estimate LEAN[] = {
+#define CRV__ESTIMATE(name)
+#define CRV__LEAN(name) {#name, CRV__NAME(name##_lean)},
+#include "cpu/kernels/list.h"
+#undef CRV__LEAN
 #undef CRV__FILTER
-#undef CRV__FAST
     {0}};
 
 static const crv__named_filter FILTERS[] = {
-#define CRV__ESTIMATE(name)
+#define CRV__LEAN(name)
 #define CRV__FILTER(name) {#name, CRV__NAME(name)},
-#define CRV__FAST(...)
 #include "cpu/kernels/list.h"
-#undef CRV__ESTIMATE
 #undef CRV__FILTER
 #undef CRV__FAST
     {0}};
 
 static const crv__fast_kind FAST[] = {
-#define CRV__ESTIMATE(name)
 #define CRV__FILTER(name)
 #define CRV__FAST(name, ...) {#name, CRV__NAME(name##_fast), __VA_ARGS__},
 #include "cpu/kernels/list.h"
@@ -55,6 +62,7 @@ void CRV__NAME(normals_row)(const crv__params *, const crv__plane *, const crv__
 extern const crv__kernels CRV__NAME(kernels);
 const crv__kernels CRV__NAME(kernels) = {
     ESTIMATES,
+    LEAN,
     FILTERS,
     FAST,
     CRV__NAME(deal),

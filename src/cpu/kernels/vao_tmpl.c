@@ -6,17 +6,18 @@
  * The tangent sphere, as methods/pipe.h has it, and what its pipes share. Places are
  * reckoned from P: pixels from its own, u to the right and v down. Lengths are in units
  * of P's depth d (orthographic: of the scene), so that o = (x, y) is a pipe's step on the
- * image plane at unit depth, ray = (ray_x, ray_y, -1) the view ray of P, and c the centre
- * from P, |c| the radius. A pipe P + (o, 0) + t w, w = ray + (o, 0), is in the sphere for
- * t within `half` of `middle`:
- *     middle = (c - o).w / w.w,    half^2 = middle^2 + (2 c.o - o.o) / w.w
- * where nothing is large that cancels. Orthographic: w = (0, 0, -1).
+ * image plane at unit depth, ray = (ray_x, ray_y, -1) the view ray of P, c the centre
+ * from P, and r the radius. A pipe P + (o, 0) + t w, w = ray + (o, 0), is in the sphere
+ * for t within `half` of `middle`: middle = (c - o).w / w.w,    half^2 = middle^2 + (r^2
+ * - c.c + 2 c.o - o.o) / w.w where nothing is large that cancels: r^2 - c.c is 0 but for
+ * the rounding of the normal. Orthographic: w = (0, 0, -1).
  */
 typedef struct sphere {
     vf unit;             /* depth of the centre, or 1: scene units */
     vf scale_x, scale_y; /* px per scene unit there */
     vf u, v;             /* of the centre, px */
     crv__v3 c;
+    vf lack;                 /* r^2 - c.c */
     vf ray_x2, ray_y2, ray2; /* 2 ray; ray.ray */
     vf b, bx, by;            /* (c - o).w = b + x bx + y by - o.o */
     vf near, inverse;        /* see crv__pipe_outside(), and 1 / d */
@@ -44,40 +45,46 @@ CRV__INLINE sphere sphere_at(const crv__frame *f, crv__shape shape, const crv__p
     s.u = vf_set(p->cx) + (at->P.x + offset.x) * s.scale_x - x;
     s.v = vf_set(p->cy) - (at->P.y + offset.y) * s.scale_y - y;
     s.b = -offset.z;
+    vf reach = vf_set(radius);
     if (!shape.orthographic) {
-        s.inverse = one / at->depth;
+        /* Of a sphere this far away all pipes are P's own, o = 0, and any unit does. */
+        s.inverse = one / vf_min(at->depth, vf_set(1e12f * radius));
         s.c = (crv__v3){offset.x * s.inverse, offset.y * s.inverse, offset.z * s.inverse};
-        const vf ray_x = at->P.x * s.inverse, ray_y = at->P.y * s.inverse;
+        const vf ray_x = (x + vf_set(0.5f - p->cx)) * vf_set(p->inv_fx);
+        const vf ray_y = (y + vf_set(0.5f - p->cy)) * vf_set(-p->inv_fy);
         s.ray2 = vf_fma(ray_x, ray_x, vf_fma(ray_y, ray_y, one));
         s.ray_x2 = ray_x + ray_x;
         s.ray_y2 = ray_y + ray_y;
         s.b = vf_fma(s.c.x, ray_x, vf_fma(s.c.y, ray_y, -s.c.z));
         s.bx = s.c.x - ray_x;
         s.by = s.c.y - ray_y;
+        reach = reach * s.inverse;
     }
+    s.lack = vf_fma(reach, reach, -crv__v3_dot(s.c, s.c));
     s.index = crv__lanes_index(&f->depth[0], at->x, vi_set(at->y));
     return s;
 }
 
-/* crv__pipe_through() */
+/* crv__pipe_through(). is_fair: nothing is decided by its numbers. */
 CRV__INLINE chord chord_through(const crv__params *p, crv__shape shape, const sphere *s,
-                                vf u, vf v)
+                                vf u, vf v, int is_fair)
 {
     const vf x = u * vf_set(p->inv_fx), y = v * vf_set(-p->inv_fy);
     const vf squared = vf_fma(x, x, y * y);
-    const vf rest = vf_fma(x, s->c.x + s->c.x, vf_fma(y, s->c.y + s->c.y, -squared));
+    const vf rest =
+        vf_fma(x, s->c.x + s->c.x, vf_fma(y, s->c.y + s->c.y, s->lack - squared));
     chord c = {s->b, rest};
     if (shape.orthographic) {
         c.half = vf_fma(s->c.z, s->c.z, rest);
     } else {
-        const vf inverse = vf_rcp_fair(
-            vf_fma(x, s->ray_x2, vf_fma(y, s->ray_y2, s->ray2 + squared)));
+        const vf length2 = vf_fma(x, s->ray_x2, vf_fma(y, s->ray_y2, s->ray2 + squared));
+        const vf inverse = vf_rcp(length2);
         c.middle = vf_fma(x, s->bx, vf_fma(y, s->by, s->b - squared)) * inverse;
         c.half = vf_fma(c.middle, c.middle, rest * inverse);
     }
     const vf least_normal = vf_set(0x1p-126f);
     c.half = vf_max(c.half, least_normal);
-    c.half = c.half * vf_rsqrt_fair(c.half);
+    c.half = c.half * (is_fair ? vf_rsqrt_fair(c.half) : vf_rsqrt(c.half));
     return c;
 }
 
@@ -115,9 +122,9 @@ typedef struct sums {
 CRV__INLINE int all_before(const crv__params *p, const sphere *s, vm active)
 {
     const vf radius = vf_set(0.5001f * p->radius);
-    const vm before = vm_and(vf_lt(radius, s->unit),
-                             vm_and(vf_lt(radius * s->scale_x, vf_set(1e8f)),
-                                    vf_lt(radius * s->scale_y, vf_set(1e8f))));
+    const vm before =
+        vm_and(vf_lt(radius, s->unit), vm_and(vf_lt(radius * s->scale_x, vf_set(1e8f)),
+                                              vf_lt(radius * s->scale_y, vf_set(1e8f))));
     return !vm_any(vm_and(active, vm_not(before)));
 }
 
@@ -138,7 +145,7 @@ CRV__INLINE sums sums_of(const crv__frame *f, crv__shape shape, const crv__pixel
         const vi step = is_small ? vi_trunc(vf_fma(v, vf_set((float)pitch), u))
                                  : vi_add(du, vi_mul(dv, vi_set(pitch)));
         const vi index = vi_add(s->index, step);
-        const chord c = chord_through(p, shape, s, u, v);
+        const chord c = chord_through(p, shape, s, u, v, before && shape.layers == 1);
         vm in = at->active, on = in;
         if (!before) {
             in = vm_and(in, vm_and(vf_lt(vf_abs(u), far_px), vf_lt(vf_abs(v), far_px)));

@@ -113,16 +113,6 @@ CRV__INLINE vf vf_rsqrt_fair(vf a)
 #endif
 }
 
-/* 1/a, relative error < 7e-5. */
-CRV__INLINE vf vf_rcp_fair(vf a)
-{
-#ifdef CRV__ROUGH_IS_FAIR
-    return vf_rcp_rough(a);
-#else
-    return vf_rcp(a);
-#endif
-}
-
 /* a * 1/sqrt(b) + c as with vf_rsqrt_fair(b), from rough = vf_rsqrt_rough(b) and root = b
  * * rough. */
 CRV__INLINE vf vf_fma_rsqrt(vf a, vf rough, vf root, vf c)

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * section_structure.c: kernels that may move samples a little beside those that sample
- * exactly where the plain code does (--exact): the error of both against the ray-traced
- * reference, and their time.
+ * section_structure.c: kernels that may move samples a little, or round their places
+ * otherwise, beside those that sample exactly where the plain code does (--exact): the
+ * error of both against the ray-traced reference, and their time.
  */
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +16,8 @@
 /* How much larger the error may be for the fast structure to be the default. */
 #define MAY_EXCEED 1.01
 
-static const char *const METHODS[] = {"hbao", "alchemy", "vo"};
+static const char *const METHODS[] = {"hbao",        "alchemy", "vo",
+                                      "containment", "hsao",    "raymarch"};
 enum { METHOD_COUNT = sizeof METHODS / sizeof METHODS[0] };
 
 enum { FAST, EXACT, STRUCTURE_COUNT };
