@@ -79,7 +79,7 @@ static inline __attribute__((always_inline)) void add_sample(
         valid = vm_and(valid, vf_lt(vf_zero() - tilt * sin_bias, cosine * cos_bias));
         tilt = tilt * cos_bias - cosine * sin_bias;
     }
-    const vf h = vf_fma_rsqrt(k, inverse, distance, tilt);
+    const vf h = vf_fma(k, inverse, tilt);
     const vf risen = s.biased ? vf_max(vf_where(valid, h), walk->horizon)
                               : vf_max_within(walk->horizon, h, squared, w->limit);
     const vf rise = risen - walk->horizon;

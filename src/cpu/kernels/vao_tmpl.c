@@ -7,10 +7,15 @@
  * reckoned from P: pixels from its own, u to the right and v down. Lengths are in units
  * of P's depth d (orthographic: of the scene), so that o = (x, y) is a pipe's step on the
  * image plane at unit depth, ray = (ray_x, ray_y, -1) the view ray of P, c the centre
- * from P, and r the radius. A pipe P + (o, 0) + t w, w = ray + (o, 0), is in the sphere
- * for t within `half` of `middle`: middle = (c - o).w / w.w,    half^2 = middle^2 + (r^2
- * - c.c + 2 c.o - o.o) / w.w where nothing is large that cancels: r^2 - c.c is 0 but for
- * the rounding of the normal. Orthographic: w = (0, 0, -1).
+ * from P, and r the radius.
+ *
+ * A pipe P + (o, 0) + t w, w = ray + (o, 0), is in the sphere for t within `half` of
+ * `middle`, where nothing is large that cancels, since r^2 - c.c is 0 but for the
+ * rounding of the normal; orthographic: w = (0, 0, -1).
+ *
+ * middle = (c - o).w / w.w
+ *
+ * half^2 = middle^2 + (r^2 - c.c + 2 c.o - o.o) / w.w
  */
 typedef struct sphere {
     vf unit;             /* depth of the centre, or 1: scene units */
@@ -119,12 +124,14 @@ typedef struct sums {
 
 /* Whether the spheres are before the eye, and none so large that texels would not fit
  * into integers. */
-CRV__INLINE int all_before(const crv__params *p, const sphere *s, vm active)
+CRV__INLINE int all_before(const crv__params *p, crv__shape shape, const sphere *s,
+                           vm active)
 {
     const vf radius = vf_set(0.5001f * p->radius);
-    const vm before =
-        vm_and(vf_lt(radius, s->unit), vm_and(vf_lt(radius * s->scale_x, vf_set(1e8f)),
-                                              vf_lt(radius * s->scale_y, vf_set(1e8f))));
+    vm before = vm_and(vf_lt(radius * s->scale_x, vf_set(1e8f)),
+                       vf_lt(radius * s->scale_y, vf_set(1e8f)));
+    if (!shape.orthographic)
+        before = vm_and(before, vf_lt(radius, s->unit));
     return !vm_any(vm_and(active, vm_not(before)));
 }
 
@@ -168,7 +175,7 @@ CRV__INLINE vf accessibility(const crv__frame *f, crv__shape shape, const crv__p
 {
     const crv__params *p = f->params;
     const sphere s = sphere_at(f, shape, at);
-    const sums all = shape.within || all_before(p, &s, at->active)
+    const sums all = shape.within || all_before(p, shape, &s, at->active)
                          ? sums_of(f, shape, at, &s, 1)
                          : sums_of(f, shape, at, &s, 0);
     const vf open = all.open + all.halves, whole = all.halves + all.halves;

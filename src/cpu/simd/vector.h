@@ -113,18 +113,6 @@ CRV__INLINE vf vf_rsqrt_fair(vf a)
 #endif
 }
 
-/* a * 1/sqrt(b) + c as with vf_rsqrt_fair(b), from rough = vf_rsqrt_rough(b) and root = b
- * * rough. */
-CRV__INLINE vf vf_fma_rsqrt(vf a, vf rough, vf root, vf c)
-{
-#ifdef CRV__ROUGH_IS_FAIR
-    (void)root;
-    return vf_fma(a, rough, c);
-#else
-    return vf_fma(a * rough, vf_fma(root * rough, vf_set(-0.5f), vf_set(1.5f)), c);
-#endif
-}
-
 /* The larger of a >= 0 and, where q < limit, b; at q = limit either. Where b is the NaN
  * that an operation made out of numbers: a. */
 CRV__INLINE vf vf_max_within(vf a, vf b, vf q, vf limit)
