@@ -7,7 +7,7 @@
 #include <OpenEXRConfig.h>
 
 #include "exr.h"
-#include "pass_camera.h"
+#include "ndc.h"
 
 typedef struct writer {
     io__output *output;

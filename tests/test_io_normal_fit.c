@@ -2,7 +2,7 @@
 /* The rotation fit on synthetic pairs, without files or G-buffers. */
 #include <math.h>
 
-#include "normal_fit.h"
+#include "passes/normal_fit.h"
 #include "test_io_support.h"
 
 enum { COUNT = 4000 };

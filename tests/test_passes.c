@@ -3,7 +3,7 @@
 #include <math.h>
 #include <sys/stat.h>
 
-#include "passes.h"
+#include "passes/passes.h"
 #include "test_io_support.h"
 
 enum { W = 160, H = 120, PIXELS = W * H };

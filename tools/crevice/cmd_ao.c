@@ -7,7 +7,7 @@
 #include "frame_facts.h"
 #include "frames.h"
 #include "output.h"
-#include "passes.h"
+#include "passes/passes.h"
 #include "radius.h"
 
 enum { PATH_SIZE = 4096 };

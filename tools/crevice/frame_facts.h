@@ -4,7 +4,7 @@
 #define TOOL_FRAME_FACTS_H
 
 #include "estimate.h"
-#include "passes.h"
+#include "passes/passes.h"
 
 /* Zeroed: of no frame yet. */
 typedef struct frame_facts {

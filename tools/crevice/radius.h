@@ -4,7 +4,7 @@
 #define TOOL_RADIUS_H
 
 #include "estimate.h"
-#include "passes.h"
+#include "passes/passes.h"
 
 /* A twentieth of the height that the picture shows at the median depth, rounded to two
  * digits: the same share of the picture whatever the scene's units are. 0 where the frame

@@ -5,7 +5,7 @@
 #define TOOL_BENCH_FRAMES_H
 
 #include "args.h"
-#include "passes.h"
+#include "passes/passes.h"
 #include "scene.h"
 #include "study/views.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * pass_normals.c: finds the space of given normals by comparing them with the normals
+ * normals.c: finds the space of given normals by comparing them with the normals
  * that depth implies, which are in view space.
  */
 #include <float.h>
@@ -9,8 +9,8 @@
 #include <string.h>
 
 #include "internal.h"
-#include "pass_normals.h"
-#include "pass_pairs.h"
+#include "normals.h"
+#include "pairs.h"
 
 enum { FEWEST_PAIRS = 50 }; /* fewer say nothing */
 

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "pass_camera.h"
+#include "ndc.h"
 
 typedef struct vec3 {
     double x, y, z;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* pass_pairs.h: given normals beside those that depth implies. */
-#ifndef CREVICE_IO_PASS_PAIRS_H
-#define CREVICE_IO_PASS_PAIRS_H
+/* pairs.h: given normals beside those that depth implies. */
+#ifndef CREVICE_IO_PASSES_PAIRS_H
+#define CREVICE_IO_PASSES_PAIRS_H
 
 #include "normal_fit.h"
 #include "passes.h"

@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "internal.h"
-#include "pass_camera.h"
-#include "pass_names.h"
-#include "pass_normals.h"
+#include "ndc.h"
+#include "names.h"
+#include "normals.h"
 
 /* Blender writes this where a ray met nothing; no renderer writes more for a surface. */
 static const float usual_background = 1e10f;

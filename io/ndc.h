@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* pass_camera.h: cameras from EXR metadata. */
-#ifndef CREVICE_IO_PASS_CAMERA_H
-#define CREVICE_IO_PASS_CAMERA_H
+/* ndc.h: cameras from EXR metadata. */
+#ifndef CREVICE_IO_NDC_H
+#define CREVICE_IO_NDC_H
 
 #include "io.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* pass_names.h: which channels of a file are depth and normals. */
-#ifndef CREVICE_IO_PASS_NAMES_H
-#define CREVICE_IO_PASS_NAMES_H
+/* names.h: which channels of a file are depth and normals. */
+#ifndef CREVICE_IO_PASSES_NAMES_H
+#define CREVICE_IO_PASSES_NAMES_H
 
 #include "passes.h"
 

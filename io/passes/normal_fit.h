@@ -3,8 +3,8 @@
  * normal_fit.h: the rotation between two sets of directions that belong together pair by
  * pair, some of the pairs wrong. Plain mathematics: knows nothing of files or G-buffers.
  */
-#ifndef CREVICE_IO_NORMAL_FIT_H
-#define CREVICE_IO_NORMAL_FIT_H
+#ifndef CREVICE_IO_PASSES_NORMAL_FIT_H
+#define CREVICE_IO_PASSES_NORMAL_FIT_H
 
 #include <stdbool.h>
 #include <stddef.h>

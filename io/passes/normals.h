@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* pass_normals.h: in which space the normals of a frame are. */
-#ifndef CREVICE_IO_PASS_NORMALS_H
-#define CREVICE_IO_PASS_NORMALS_H
+/* normals.h: in which space the normals of a frame are. */
+#ifndef CREVICE_IO_PASSES_NORMALS_H
+#define CREVICE_IO_PASSES_NORMALS_H
 
 #include "passes.h"
 

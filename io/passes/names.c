@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * pass_names.c: the names that renderers give to depth and normals. A channel is
+ * names.c: the names that renderers give to depth and normals. A channel is
  * "PREFIX.LAYER.COMPONENT", of which the prefix ("ViewLayer", a part's name) may be
  * anything and may be missing. Tables are in order of preference; case does not matter.
  */
@@ -8,7 +8,7 @@
 #include <strings.h>
 
 #include "internal.h"
-#include "pass_names.h"
+#include "names.h"
 
 static const char *const depth_layers[] = {
     "depth",            /* Blender, Redshift, Karma, Nuke, Mitsuba, LuxCore */

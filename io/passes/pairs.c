@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* pass_pairs.c: given normals beside those that depth implies, where it is smooth. */
+/* pairs.c: given normals beside those that depth implies, where it is smooth. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "pass_pairs.h"
+#include "pairs.h"
 
 enum {
     LOOKED_AT = 40000, /* about so many pixels */

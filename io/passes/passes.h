@@ -4,8 +4,8 @@
  * and normal channels by the names that renderers use, the camera from metadata or from
  * the caller, overscan as guard band, and the space that the normals are in.
  */
-#ifndef CREVICE_IO_PASSES_H
-#define CREVICE_IO_PASSES_H
+#ifndef CREVICE_IO_PASSES_PASSES_H
+#define CREVICE_IO_PASSES_PASSES_H
 
 #include "io.h"
 
@@ -44,7 +44,7 @@ typedef struct io_frame {
 
 /*
  * Loads a frame. Depth is found as Z, *.Z, *.Depth.Z, *.Depth.V, depth, ... (first match
- * in the order of the table in passes.c), further layers as layer2.Z to layer4.Z, or
+ * in the order of the table in names.c), further layers as layer2.Z to layer4.Z, or
  * solid2.Z to solid4.Z (then desc.layer_kind is CRV_LAYERS_SOLID), normals as N, Normal,
  * *.Normal and the like with X Y Z or R G B. A PNG or PFM with one channel is depth.
  * Without metadata, vfov_rad or view_height: an error that says how to give it. What was
