@@ -21,7 +21,8 @@ ROOMS = {
     "src/vulkan": {"include/crevice", "src/base", "src/core", "src/shared"},
     "io": {"include/crevice"},
     "scene": {"include/crevice"},
-    "tools": {"include/crevice", "io", "scene"},
+    "tools/common": {"include/crevice", "io", "scene"},
+    "tools/crevice": {"include/crevice", "io", "scene", "tools/common"},
     "bench": {"include/crevice", "io", "scene"},
     "examples": {"include/crevice"},
 }
@@ -59,7 +60,7 @@ SYSTEM = {
 OWNED = {
     r"(openexr|OpenEXR|png|zlib)": "io",
     r"(embree\d*/|assimp/)": "scene",
-    r"(cjson/|cJSON)": "tools",
+    r"(cjson/|cJSON)": "tools/",
 }
 
 # Headers that the build makes, and their rooms.
@@ -78,7 +79,8 @@ def room_of(path):
 
 def resolve(root, includer, name):
     """The project's file that a name means, relative to root, or None."""
-    folders = [os.path.dirname(includer), "include", "src", "io", "scene", "tools/crevice"]
+    folders = [os.path.dirname(includer), "include", "src", "io", "scene", "tools",
+               "tools/crevice"]
     for folder in folders:
         path = os.path.normpath(os.path.join(folder, name))
         if os.path.isfile(os.path.join(root, path)):
@@ -109,9 +111,9 @@ def fault_of(root, path, name, quoted):
     if name.startswith("vulkan/") and room not in ("src/vulkan", "include/crevice", "examples"):
         return f"includes <{name}>, which belongs to src/vulkan/"
     for pattern, owner in OWNED.items():
-        if re.match(pattern, name) and room != owner and not (
-                owner == "tools" and room == "bench"):
-            return f"includes <{name}>, which belongs to {owner}/"
+        if re.match(pattern, name) and not room.startswith(owner) and not (
+                owner == "tools/" and room == "bench"):
+            return f"includes <{name}>, which belongs to {owner.rstrip('/')}/"
     return None
 
 

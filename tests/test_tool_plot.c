@@ -10,7 +10,7 @@
 
 #include "study/plot.h"
 #include "study/plot_axis.h"
-#include "study/text.h"
+#include "text.h"
 
 static void check_front(const double *x, const double *y, int32_t count,
                         const char *expected)

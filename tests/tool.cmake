@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: MIT
 # The command-line tool: its parts that compute, then whole runs of it.
+set(common_dir ${PROJECT_SOURCE_DIR}/tools/common)
 set(tool_dir ${PROJECT_SOURCE_DIR}/tools/crevice)
 
-crevice_test(test_tool_metrics SOURCES test_tool_metrics.c ${tool_dir}/metrics.c)
-crevice_test(test_tool_metrics_fit SOURCES test_tool_metrics_fit.c ${tool_dir}/metrics_fit.c)
-crevice_test(test_tool_metrics_flip SOURCES test_tool_metrics_flip.c ${tool_dir}/flip.c)
+crevice_test(test_tool_metrics SOURCES test_tool_metrics.c ${common_dir}/metrics.c)
+crevice_test(test_tool_metrics_fit SOURCES test_tool_metrics_fit.c ${common_dir}/metrics_fit.c)
+crevice_test(test_tool_metrics_flip SOURCES test_tool_metrics_flip.c ${common_dir}/flip.c)
 crevice_test(test_tool_metrics_heatmap
-    SOURCES test_tool_metrics_heatmap.c ${tool_dir}/heatmap.c)
+    SOURCES test_tool_metrics_heatmap.c ${common_dir}/heatmap.c)
 crevice_test(test_tool_args
-    SOURCES test_tool_args.c ${tool_dir}/args.c ${tool_dir}/values.c ${tool_dir}/report.c
+    SOURCES test_tool_args.c ${common_dir}/args.c ${common_dir}/values.c ${common_dir}/report.c
             ${tool_dir}/frames.c)
 crevice_test(test_tool_stability
     SOURCES test_tool_stability.c ${tool_dir}/study/stability.c)
@@ -18,17 +19,17 @@ crevice_test(test_tool_closed_forms
 crevice_test(test_tool_relief_truth
     SOURCES test_tool_relief_truth.c ${tool_dir}/study/claims_relief_truth.c)
 foreach(test test_tool_stability test_tool_closed_forms test_tool_relief_truth)
-    target_include_directories(${test} PRIVATE ${tool_dir})
+    target_include_directories(${test} PRIVATE ${tool_dir} ${PROJECT_SOURCE_DIR}/tools)
 endforeach()
 foreach(test test_tool_metrics test_tool_metrics_fit test_tool_metrics_flip
         test_tool_metrics_heatmap test_tool_args)
-    target_include_directories(${test} PRIVATE ${tool_dir})
+    target_include_directories(${test} PRIVATE ${common_dir} ${tool_dir})
 endforeach()
 
 crevice_test(test_tool_plot
     SOURCES test_tool_plot.c ${tool_dir}/study/plot_pareto.c ${tool_dir}/study/plot_axis.c
-            ${tool_dir}/study/text.c)
-target_include_directories(test_tool_plot PRIVATE ${tool_dir})
+            ${common_dir}/text.c)
+target_include_directories(test_tool_plot PRIVATE ${common_dir} ${tool_dir} ${PROJECT_SOURCE_DIR}/tools)
 
 # Each script gets the tool and a folder of its own to write in.
 function(tool_test name)

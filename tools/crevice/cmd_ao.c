@@ -3,12 +3,12 @@
 #include <sys/stat.h>
 
 #include "commands.h"
-#include "estimate.h"
+#include "common/estimate.h"
 #include "frame_facts.h"
 #include "frames.h"
-#include "output.h"
+#include "common/output.h"
 #include "passes/passes.h"
-#include "radius.h"
+#include "common/radius.h"
 
 enum { PATH_SIZE = 4096 };
 

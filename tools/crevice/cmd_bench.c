@@ -9,10 +9,10 @@
 
 #include "bench/bench.h"
 #include "commands.h"
-#include "device.h"
-#include "output.h"
-#include "study/machine.h"
-#include "study/text.h"
+#include "common/device.h"
+#include "common/output.h"
+#include "common/machine.h"
+#include "common/text.h"
 
 static const struct {
     const char *name;

@@ -5,11 +5,11 @@
 #include <string.h>
 
 #include "commands.h"
-#include "flip.h"
-#include "heatmap_file.h"
+#include "common/flip.h"
+#include "common/heatmap_file.h"
 #include "io.h"
-#include "metrics.h"
-#include "metrics_print.h"
+#include "common/metrics.h"
+#include "common/metrics_print.h"
 
 typedef struct compare_settings {
     common_settings common;

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "commands.h"
-#include "device.h"
+#include "common/device.h"
 
 typedef struct devices_settings {
     common_settings common;

@@ -4,8 +4,8 @@
 
 #include "commands.h"
 #include "gbuffer_image.h"
-#include "output.h"
-#include "view.h"
+#include "common/output.h"
+#include "common/view.h"
 
 static const arg gbuffer_rows[] = {
     VIEW_MODEL_ROW,

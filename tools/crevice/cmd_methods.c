@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "commands.h"
-#include "help.h"
+#include "common/help.h"
 
 typedef struct methods_settings {
     common_settings common;

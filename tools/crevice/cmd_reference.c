@@ -4,9 +4,9 @@
 
 #include "commands.h"
 #include "gbuffer_image.h"
-#include "output.h"
+#include "common/output.h"
 #include "reference_run.h"
-#include "view.h"
+#include "common/view.h"
 
 typedef struct reference_settings {
     view_settings view;

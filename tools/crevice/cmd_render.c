@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "commands.h"
-#include "estimate.h"
-#include "output.h"
+#include "common/estimate.h"
+#include "common/output.h"
 #include "render.h"
 
 /* In the order of SHADE_AO ... */

@@ -8,11 +8,11 @@
 #include <unistd.h>
 
 #include "commands.h"
-#include "device.h"
-#include "study/machine.h"
+#include "common/device.h"
+#include "common/machine.h"
 #include "study/sections.h"
-#include "study/text.h"
-#include "output.h"
+#include "common/text.h"
+#include "common/output.h"
 #include "study/views.h"
 
 typedef struct report_settings {

@@ -3,7 +3,7 @@
 #ifndef TOOL_COMMANDS_H
 #define TOOL_COMMANDS_H
 
-#include "args.h"
+#include "common/args.h"
 
 extern const command command_render;
 extern const command command_ao;

@@ -3,7 +3,7 @@
 #ifndef TOOL_FRAME_FACTS_H
 #define TOOL_FRAME_FACTS_H
 
-#include "estimate.h"
+#include "common/estimate.h"
 #include "passes/passes.h"
 
 /* Zeroed: of no frame yet. */

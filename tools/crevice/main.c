@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "commands.h"
-#include "help.h"
+#include "common/help.h"
 
 static const command *const commands[] = {&command_render,  &command_ao,
                                           &command_gbuffer, &command_reference,

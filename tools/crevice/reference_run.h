@@ -4,7 +4,7 @@
 #ifndef TOOL_REFERENCE_RUN_H
 #define TOOL_REFERENCE_RUN_H
 
-#include "args.h"
+#include "common/args.h"
 #include "reference.h"
 
 typedef struct reference_run {

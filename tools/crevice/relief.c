@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "estimate.h"
+#include "common/estimate.h"
 #include "render.h"
 
 /* In the order of crv_wrap. */

@@ -4,7 +4,7 @@
 #define TOOL_RENDER_H
 
 #include "io.h"
-#include "view.h"
+#include "common/view.h"
 
 /* What the main picture shows. */
 enum { SHADE_AO, SHADE_LIT, SHADE_LIT_NO_AO };

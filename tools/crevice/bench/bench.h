@@ -10,7 +10,7 @@
 
 #include <cjson/cJSON.h>
 
-#include "args.h"
+#include "common/args.h"
 #include "bench/ceilings.h"
 #include "bench/clock.h"
 #include "bench/frames.h"

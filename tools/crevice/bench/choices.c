@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "bench/bench.h"
-#include "device.h"
-#include "study/machine.h"
+#include "common/device.h"
+#include "common/machine.h"
 
 enum { WORD_SIZE = 64, NAMES_MAX = 64 };
 

@@ -14,7 +14,7 @@
 #include <sys/syscall.h>
 #endif
 
-#include "report.h"
+#include "common/report.h"
 
 enum { RUNS_MAX = 512, RUNS_FEW = 3 };
 #define SHORT_SECONDS 0.1

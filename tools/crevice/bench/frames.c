@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "radius.h"
-#include "view.h"
+#include "common/radius.h"
+#include "common/view.h"
 
 static const double degree = 3.14159265358979323846 / 180.0;
 

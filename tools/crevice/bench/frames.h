@@ -4,7 +4,7 @@
 #ifndef TOOL_BENCH_FRAMES_H
 #define TOOL_BENCH_FRAMES_H
 
-#include "args.h"
+#include "common/args.h"
 #include "passes/passes.h"
 #include "scene.h"
 #include "study/views.h"

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "bench/bench.h"
-#include "device.h"
+#include "common/device.h"
 #include "study/study.h"
 
 /* The size stands before what the caller gets, so that releasing needs no table. */

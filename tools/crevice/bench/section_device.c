@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "bench/bench.h"
-#include "device.h"
+#include "common/device.h"
 #include "study/study.h"
 
 enum { RUNS_MAX = 64 };

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "bench/bench.h"
-#include "device.h"
+#include "common/device.h"
 #include "study/study.h"
 
 static const char *const paths[CRV_FETCH_PATHS] = {

@@ -14,9 +14,9 @@
 #include <unistd.h>
 
 #include "bench/bench.h"
-#include "device.h"
+#include "common/device.h"
 #include "gbuffer_image.h"
-#include "output.h"
+#include "common/output.h"
 #include "study/study.h"
 
 extern char **environ;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "groove.h"
 
-#include "device.h"
+#include "common/device.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "io.h"
-#include "output.h"
+#include "common/output.h"
 #include "page_internal.h"
 
 void page_fail_memory(page *p)

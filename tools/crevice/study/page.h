@@ -8,7 +8,7 @@
 #ifndef TOOL_STUDY_PAGE_H
 #define TOOL_STUDY_PAGE_H
 
-#include "report.h"
+#include "common/report.h"
 
 typedef struct page page;
 

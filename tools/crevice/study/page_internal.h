@@ -4,7 +4,7 @@
 #define TOOL_STUDY_PAGE_INTERNAL_H
 
 #include "page.h"
-#include "text.h"
+#include "common/text.h"
 
 extern const char *const page_style[]; /* NULL-terminated */
 

@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "heatmap.h"
+#include "common/heatmap.h"
 #include "io.h"
-#include "output.h"
+#include "common/output.h"
 #include "page_internal.h"
 
 typedef struct picture {

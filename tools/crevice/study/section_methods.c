@@ -10,7 +10,7 @@
 #include <omp.h>
 #endif
 
-#include "flip.h"
+#include "common/flip.h"
 #include "plot.h"
 #include "sections.h"
 

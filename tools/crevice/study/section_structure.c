@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "bench/clock.h"
-#include "device.h"
+#include "common/device.h"
 #include "sections.h"
 
 /* How much larger the error may be for the fast structure to be the default. */

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "device.h"
+#include "common/device.h"
 #include "study_cache.h"
 
 int study_open(study *s)

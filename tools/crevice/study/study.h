@@ -9,9 +9,9 @@
 
 #include <cjson/cJSON.h>
 
-#include "args.h"
-#include "metrics.h"
-#include "metrics_fit.h"
+#include "common/args.h"
+#include "common/metrics.h"
+#include "common/metrics_fit.h"
 #include "page.h"
 #include "reference.h"
 #include "scene.h"

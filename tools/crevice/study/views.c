@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "text.h"
-#include "view.h"
+#include "common/text.h"
+#include "common/view.h"
 
 static const double degree = 3.14159265358979323846 / 180.0;
 

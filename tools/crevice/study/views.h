@@ -4,7 +4,7 @@
 #ifndef TOOL_STUDY_VIEWS_H
 #define TOOL_STUDY_VIEWS_H
 
-#include "args.h"
+#include "common/args.h"
 #include "study.h"
 
 typedef struct views_model {

@@ -9,8 +9,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "text.h"
-#include "view.h"
+#include "common/text.h"
+#include "common/view.h"
 #include "views.h"
 
 enum { FILE_MAX = 1 << 22, NAME_MAX_LENGTH = 40 };

@@ -4,7 +4,7 @@
 #define TOOL_DEVICE_H
 
 #include "args.h"
-#include "study/text.h"
+#include "text.h"
 
 /* A context with the logger; the caller destroys it. EXIT_USAGE with an error line where
  * this machine lacks what was asked for. */
