@@ -22,7 +22,7 @@ static size_t folder_length(const char *path)
     return slash ? (size_t)(slash - path) + 1 : 0;
 }
 
-/* folder (the first `length` bytes of path) + name, or just name where it is absolute. */
+/* folder (the first `length` bytes of path) + name, or just name if it is absolute. */
 static char *beside(const char *path, size_t length, const char *name)
 {
     if (name[0] == '/')
@@ -141,7 +141,7 @@ int io__output_open(io__output *output, const char *path, const crv_logger *log)
     const int descriptor = open_temporary(&made);
     struct stat former;
     if (descriptor >= 0 && !stat(made.target, &former)) {
-        /* What is replaced keeps its permissions; where that is refused, as some
+        /* What is replaced keeps its permissions; if that is refused, as some
          * network's file systems do, the picture matters more. */
         if (fchmod(descriptor, former.st_mode & 07777))
             errno = 0;

@@ -43,7 +43,7 @@ int io__exr_metadata(const io__exr *exr, int part, io_image *image);
 int io__exr_check_part(io__exr *exr, int part);
 
 /* Reads a part. targets: for each channel of the part, in its order, the place for the
- * data window's pixels, or NULL where it is not wanted. */
+ * data window's pixels, or NULL if it is not wanted. */
 int io__exr_read_part(io__exr *exr, int part, float *const *targets);
 
 /* The writer of exr_write.c. */

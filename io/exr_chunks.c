@@ -182,7 +182,7 @@ typedef struct destination {
 static exr_result_t unpack(exr_decode_pipeline_t *decode)
 {
     const destination *to = decode->decoding_user_data;
-    const bool packed = !decode->unpacked_buffer; /* so it is where nothing was packed */
+    const bool packed = !decode->unpacked_buffer; /* if nothing was packed */
     const unsigned char *source =
         packed ? decode->packed_buffer : decode->unpacked_buffer;
     uint64_t left = packed ? decode->chunk.packed_size : decode->chunk.unpacked_size;

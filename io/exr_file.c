@@ -8,7 +8,7 @@
 
 #include "exr.h"
 
-/* Renderers write hundreds of channels (Cryptomatte, light groups), never so many. */
+/* Renderers write hundreds of channels (Cryptomatte, light groups), never this many. */
 enum { MAX_CHANNELS = 4096 };
 
 /* OpenEXR prints its errors to stderr unless somebody takes them. */

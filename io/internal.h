@@ -29,7 +29,7 @@ void io__info(const crv_logger *log, const char *path, const char *format, ...)
 int io__fail_channel(const crv_logger *log, const char *path, const char *wanted,
                      const io_image *image);
 
-/* Writes "A, B, C" into out, cut short with "... (N in all)" where it does not fit. */
+/* Writes "A, B, C" into out, cut short with "... (N in all)" if it does not fit. */
 void io__list_channels(const io_image *image, char *out, size_t size);
 
 /* Checks 1 <= width, height <= CRV_MAX_SIZE. 64 bits, so that no sum overflowed. */
@@ -97,7 +97,7 @@ int io__probe_colour(const io__file *file, int32_t width, int32_t height,
 int io__colour_channels(const io_image *image, int32_t index[3], const char *path,
                         const char *format, const crv_logger *log);
 
-/* A line of OpenMP, where it is built with that. */
+/* A line of OpenMP, if it is built with that. */
 #ifdef _OPENMP
 #define IO__OMP_TEXT(...) _Pragma(#__VA_ARGS__)
 #define IO__OMP(...)      IO__OMP_TEXT(omp __VA_ARGS__)

@@ -106,7 +106,7 @@ int io_write_bytes(const char *path, const void *bytes, size_t size,
                    const crv_logger *log);
 
 /*
- * Makes the folder where it is missing, in a folder that is there, and finds out whether
+ * Makes the folder if it is missing, in a folder that is there, and finds out whether
  * files can be made in it and whether the disk holds `room` more bytes, which are written
  * and removed again. *made (NULL: not wanted) tells whether the folder is new.
  */

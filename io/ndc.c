@@ -28,7 +28,7 @@ static vec3 minus(vec3 a, vec3 b)
     return (vec3){a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
-/* Splits a into its length and its direction; false where it has none. */
+/* Splits a into its length and its direction; false if it has none. */
 static bool split(vec3 a, double *length, vec3 *direction)
 {
     *length = sqrt(dot(a, a));

@@ -9,7 +9,7 @@
  * The camera that worldToNDC describes, in pixels of the display window, world_to_view
  * included. World space is taken to be right-handed. Both worldToNDC as OpenEXR defines
  * it (0 to 1, y down) and clip coordinates as renderers write them in its place (-1 to 1,
- * y up or down) are understood. Returns 0, or -1 where the matrix is no such projection.
+ * y up or down) are understood. Returns 0, or -1 if the matrix is no such projection.
  */
 int io__camera_from_ndc(const io_camera_metadata *metadata, int32_t display_width,
                         int32_t display_height, crv_camera *camera);

@@ -4,12 +4,13 @@
 #include <math.h>
 #include <string.h>
 
+#include "depth.h"
 #include "internal.h"
 #include "ndc.h"
 #include "names.h"
 #include "normals.h"
 
-/* Blender writes this where a ray met nothing; no renderer writes more for a surface. */
+/* Blender writes this if a ray met nothing; no renderer writes more for a surface. */
 static const float usual_background = 1e10f;
 static const float pi = 3.14159265358979f;
 
@@ -20,11 +21,10 @@ static int check_request(const char *path, const io_passes_request *request,
     if (vfov != 0.0f && !(vfov > 0.0f && vfov < pi))
         return io__fail(log, path,
                         "the vertical field of view must lie between 0 and 180 degrees; "
-                        "give --vfov 60 or the like");
+                        "give 60 or the like");
     if (height != 0.0f && !(height > 0.0f && isfinite(height)))
         return io__fail(log, path,
-                        "the view height must be a positive number; give --ortho 10 or "
-                        "the like");
+                        "the view height must be a positive number; give 10 or the like");
     if (vfov != 0.0f && height != 0.0f)
         return io__fail(log, path,
                         "both a field of view and an orthographic view height are given; "
@@ -57,10 +57,11 @@ static int find_camera(const char *path, const io_image *probed,
     else if (has_camera)
         *camera = described;
     else
-        return io__fail(log, path,
-                        "does not say which camera made it; give its vertical field of "
-                        "view with --vfov DEGREES (or --ortho HEIGHT for an orthographic "
-                        "one)");
+        return io__fail(log, path, "does not say which camera made it; %s",
+                        request->remedies.camera
+                            ? request->remedies.camera
+                            : "give its field of view, or the height of an orthographic "
+                              "view");
     if (request->vfov_rad > 0.0f || request->view_height > 0.0f)
         camera->fx_px /= probed->pixel_aspect;
     else
@@ -212,9 +213,13 @@ int io_frame_load(const char *path, const io_passes_request *request, io_frame *
     frame.desc.layer_kind = names.layer_kind;
     const bool given_normals = names.normal[0] != NULL;
     frame.camera = crv_camera_crop(&camera, frame.image.data_x, frame.image.data_y);
-    frame.depth_format = settle_format(request);
     for (int32_t i = 0; i < names.layers; i++)
         frame.depth[i] = view_of(&frame.image, i, 1);
+    const crv_depth_format format = settle_format(request);
+    if (io__convert_depth(path, &format, &frame, log)) {
+        io_frame_free(&frame);
+        return -1;
+    }
     if (given_normals) {
         frame.normals = view_of(&frame.image, names.layers, 3);
         io__settle_normals(path, request->normal_space, has_rotation, &frame, log);
@@ -241,7 +246,7 @@ crv_status io_frame_to_gbuffer(const io_frame *frame, struct crv_context *contex
     if (status == CRV_OK)
         status = crv_gbuffer_set_camera(made, &frame->camera);
     for (int32_t i = 0; status == CRV_OK && i < frame->desc.layers; i++)
-        status = crv_gbuffer_set_depth(made, i, &frame->depth[i], &frame->depth_format);
+        status = crv_gbuffer_set_depth(made, i, &frame->depth[i], NULL);
     if (status == CRV_OK && frame->has_normals)
         status = crv_gbuffer_set_normals(made, &frame->normals, frame->normal_space);
     if (status == CRV_OK)

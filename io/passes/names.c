@@ -75,7 +75,7 @@ static bool same_text(const char *a, size_t length, const char *b)
     return strlen(b) == length && !strncasecmp(a, b, length);
 }
 
-/* The component is the last piece, or empty where the layer is itself a channel. */
+/* The component is the last piece, or empty if the layer is itself a channel. */
 static split_name split(const char *name, bool with_component)
 {
     const char *end = name + strlen(name);
@@ -164,8 +164,18 @@ static const char *find_requested_depth(const io_image *probed, const char *want
     return NULL;
 }
 
+static const char *depth_remedy(const io_passes_request *request)
+{
+    return request->remedies.depth ? request->remedies.depth : "name the depth channel";
+}
+
+static const char *normal_remedy(const io_passes_request *request)
+{
+    return request->remedies.normal ? request->remedies.normal : "name the normals";
+}
+
 static const char *find_depth(const char *path, const io_image *probed,
-                              const crv_logger *log)
+                              const io_passes_request *request, const crv_logger *log)
 {
     const char *best = NULL, *second = NULL;
     int best_rank = NO_MATCH, second_rank = NO_MATCH;
@@ -188,17 +198,18 @@ static const char *find_depth(const char *path, const io_image *probed,
     }
     if (second && second_rank < NO_MATCH)
         io__info(log, path,
-                 "several channels may be depth; \"%s\" is used, not \"%s\" (choose with "
-                 "--depth NAME)",
-                 best, second);
+                 "several channels may be depth; \"%s\" is used, not \"%s\" (%s)", best,
+                 second, depth_remedy(request));
     return best;
 }
 
-static int choose_depth(const char *path, const io_image *probed, const char *wanted,
-                        io__pass_names *out, const crv_logger *log)
+static int choose_depth(const char *path, const io_image *probed,
+                        const io_passes_request *request, io__pass_names *out,
+                        const crv_logger *log)
 {
-    out->depth[0] =
-        wanted ? find_requested_depth(probed, wanted) : find_depth(path, probed, log);
+    const char *wanted = request->depth;
+    out->depth[0] = wanted ? find_requested_depth(probed, wanted)
+                           : find_depth(path, probed, request, log);
     out->layers = 1;
     out->layer_kind = CRV_LAYERS_SURFACES;
     if (!out->depth[0] && wanted)
@@ -206,10 +217,8 @@ static int choose_depth(const char *path, const io_image *probed, const char *wa
     if (!out->depth[0]) {
         char list[1500];
         io__list_channels(probed, list, sizeof list);
-        return io__fail(log, path,
-                        "no channel looks like depth (there are: %s); name it with "
-                        "--depth NAME",
-                        list);
+        return io__fail(log, path, "no channel looks like depth (there are: %s); %s",
+                        list, depth_remedy(request));
     }
     if (strcasecmp(out->depth[0], "Z"))
         return 0;
@@ -289,7 +298,8 @@ static int normal_rank(const char *name, size_t length, const char *depth)
     return NO_MATCH;
 }
 
-static void find_normals(const char *path, const io_image *probed, io__pass_names *out,
+static void find_normals(const char *path, const io_image *probed,
+                         const io_passes_request *request, io__pass_names *out,
                          const crv_logger *log)
 {
     int best_rank = NO_MATCH, matches = 0;
@@ -308,23 +318,20 @@ static void find_normals(const char *path, const io_image *probed, io__pass_name
         snprintf(out->normal_base, sizeof out->normal_base, "%.*s", (int)length, name);
     }
     if (matches && best_rank >= (int)COUNT(normal_layers))
-        io__warn(
-            log, path,
-            "normals \"%s\" are of another layer than depth \"%s\"; choose them with "
-            "--normal NAME, or --normal none",
-            out->normal_base, out->depth[0]);
+        io__warn(log, path, "normals \"%s\" are of another layer than depth \"%s\"; %s",
+                 out->normal_base, out->depth[0], normal_remedy(request));
     if (matches > 1)
-        io__info(log, path,
-                 "several layers may be normals; \"%s\" is used (choose with --normal "
-                 "NAME)",
-                 out->normal_base);
+        io__info(log, path, "several layers may be normals; \"%s\" is used (%s)",
+                 out->normal_base, normal_remedy(request));
 }
 
-static int choose_normals(const char *path, const io_image *probed, const char *wanted,
-                          io__pass_names *out, const crv_logger *log)
+static int choose_normals(const char *path, const io_image *probed,
+                          const io_passes_request *request, io__pass_names *out,
+                          const crv_logger *log)
 {
+    const char *wanted = request->normal;
     if (!wanted) {
-        find_normals(path, probed, out, log);
+        find_normals(path, probed, request, out, log);
         return 0;
     }
     if (!strcasecmp(wanted, "none"))
@@ -346,8 +353,8 @@ int io__choose_passes(const char *path, const io_image *probed,
                       const crv_logger *log)
 {
     memset(out, 0, sizeof *out);
-    if (choose_depth(path, probed, request->depth, out, log)
-        || choose_normals(path, probed, request->normal, out, log))
+    if (choose_depth(path, probed, request, out, log)
+        || choose_normals(path, probed, request, out, log))
         return -1;
     io__info(log, path, "depth: \"%s\" (%d layer%s%s); normals: %s%s%s", out->depth[0],
              (int)out->layers, out->layers > 1 ? "s" : "",

@@ -8,9 +8,9 @@
 typedef struct io__pass_names {
     int32_t layers;                    /* depth channels, 1 to CRV_MAX_LAYERS */
     const char *depth[CRV_MAX_LAYERS]; /* point into the probed image */
-    crv_layers layer_kind;          /* solid where further layers are called solidN.Z */
-    const char *normal[3];          /* x, y, z; NULL where there are none */
-    char normal_base[IO_NAME_SIZE]; /* name without the component, for messages */
+    crv_layers layer_kind;             /* solid if further layers are called solidN.Z */
+    const char *normal[3];             /* x, y, z; NULL if there are none */
+    char normal_base[IO_NAME_SIZE];    /* name without the component, for messages */
 } io__pass_names;
 
 /* Chooses among the channels of a probed image, as requested or by the tables of names,

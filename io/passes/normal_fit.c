@@ -34,7 +34,7 @@ static double angle(const io__normal_pairs *pairs, bool mirrored, const double r
         const double difference = turned - (double)pairs->to[i][k];
         square += difference * difference;
     }
-    /* By the chord, which is exact for small angles where the cosine is not. */
+    /* By the chord, which is exact for small angles, the cosine is not. */
     return 2.0 * asin(fmin(1.0, 0.5 * sqrt(square)));
 }
 

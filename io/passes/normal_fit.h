@@ -18,13 +18,13 @@ typedef struct io__normal_pairs {
 
 /*
  * The rotation that takes `from` to `to` with the smallest robust error; mirrored: after
- * the z of `from` is negated. Row-major, to = rotation * from. Any minimiser where
- * several are as good (all directions parallel, or in a plane). Returns 0, or -1 where
+ * the z of `from` is negated. Row-major, to = rotation * from. Any minimiser if
+ * several are as good (all directions parallel, or in a plane). Returns 0, or -1 if
  * count is 0 or memory is missing. Deterministic.
  */
 int io__normal_fit(const io__normal_pairs *pairs, bool mirrored, double rotation[9]);
 
-/* The median angle in radians between rotation * from and to; -1 where count is 0 or
+/* The median angle in radians between rotation * from and to; -1 if count is 0 or
  * memory is missing. */
 double io__normal_deviation(const io__normal_pairs *pairs, bool mirrored,
                             const double rotation[9]);

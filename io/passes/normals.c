@@ -163,7 +163,7 @@ static void apply(const candidate *chosen, io_frame *frame)
             frame->camera.world_to_view[i] = (float)chosen->rotation[i];
 }
 
-/* What to do where depth cannot tell. */
+/* What to do if depth cannot tell. */
 static void settle_without_pairs(const char *path, bool has_rotation, io_frame *frame,
                                  const crv_logger *log)
 {

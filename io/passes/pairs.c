@@ -7,7 +7,7 @@
 #include "pairs.h"
 
 enum {
-    LOOKED_AT = 40000, /* about so many pixels */
+    LOOKED_AT = 40000, /* pixels, about */
     PLENTY = 400       /* of pairs: no need to be less strict */
 };
 
@@ -32,39 +32,10 @@ int32_t io__sampling_step(const io_frame *frame)
     return step > 1.0 ? (int32_t)step : 1;
 }
 
-/* Planar depth, packed, whatever the file's encoding; NULL where it cannot be had. */
-static float *planar_depth(const io_frame *frame)
-{
-    crv_context *context = NULL;
-    crv_gbuffer *gbuffer = NULL;
-    crv_gbuffer_desc desc;
-    const int32_t width = frame->desc.width, height = frame->desc.height;
-    float *depth = calloc((size_t)width * (size_t)height, sizeof *depth);
-    if (!depth)
-        return NULL;
-    const crv_image image = crv_image_packed(depth, width, height, 1);
-    crv_gbuffer_desc_init(&desc, sizeof desc, width, height);
-    const bool done =
-        crv_context_create(NULL, &context) == CRV_OK
-        && crv_gbuffer_create(context, &desc, &gbuffer) == CRV_OK
-        && crv_gbuffer_set_camera(gbuffer, &frame->camera) == CRV_OK
-        && crv_gbuffer_set_depth(gbuffer, 0, &frame->depth[0], &frame->depth_format)
-               == CRV_OK
-        && crv_gbuffer_get_depth(gbuffer, 0, &image) == CRV_OK;
-    crv_gbuffer_destroy(gbuffer);
-    crv_context_destroy(context);
-    if (!done) {
-        free(depth);
-        return NULL;
-    }
-    return depth;
-}
-
-static void position(const io_frame *frame, const float *depth, int32_t x, int32_t y,
-                     double p[3])
+static void position(const io_frame *frame, int32_t x, int32_t y, double p[3])
 {
     const crv_camera *camera = &frame->camera;
-    const double d = (double)depth[(size_t)y * (size_t)frame->desc.width + (size_t)x];
+    const double d = (double)*crv_image_at(&frame->depth[0], x, y, 0);
     const double scale = camera->projection == CRV_PERSPECTIVE ? d : 1.0;
     p[0] = (x + 0.5 - (double)camera->cx_px) / (double)camera->fx_px * scale;
     p[1] = -(y + 0.5 - (double)camera->cy_px) / (double)camera->fy_px * scale;
@@ -73,16 +44,15 @@ static void position(const io_frame *frame, const float *depth, int32_t x, int32
 
 /* The normal that depth implies, by central differences: one-sided ones, as an estimator
  * takes them at edges, would belong to a point half a pixel away and bias the fit. */
-static bool implied_normal(const io_frame *frame, const float *depth, int32_t x,
-                           int32_t y, float n[3])
+static bool implied_normal(const io_frame *frame, int32_t x, int32_t y, float n[3])
 {
     double left[3], right[3], above[3], below[3], normal[3];
     if (x < 1 || y < 1 || x >= frame->desc.width - 1 || y >= frame->desc.height - 1)
         return false;
-    position(frame, depth, x - 1, y, left);
-    position(frame, depth, x + 1, y, right);
-    position(frame, depth, x, y - 1, above);
-    position(frame, depth, x, y + 1, below);
+    position(frame, x - 1, y, left);
+    position(frame, x + 1, y, right);
+    position(frame, x, y - 1, above);
+    position(frame, x, y + 1, below);
     for (int c = 0; c < 3; c++) {
         right[c] -= left[c];
         above[c] -= below[c];
@@ -101,15 +71,15 @@ static bool implied_normal(const io_frame *frame, const float *depth, int32_t x,
 
 /* Depth says little about the normal at edges and in foliage: there, neighbours differ.
  * Two pixels away, because direct neighbours are made from the same differences. */
-static bool smooth_normal(const io_frame *frame, const float *depth, int32_t x, int32_t y,
-                          double cosine, float n[3])
+static bool smooth_normal(const io_frame *frame, int32_t x, int32_t y, double cosine,
+                          float n[3])
 {
     static const int32_t offsets[4][2] = {{-2, 0}, {2, 0}, {0, -2}, {0, 2}};
-    if (!implied_normal(frame, depth, x, y, n))
+    if (!implied_normal(frame, x, y, n))
         return false;
     for (int i = 0; i < 4; i++) {
         float other[3];
-        if (!implied_normal(frame, depth, x + offsets[i][0], y + offsets[i][1], other))
+        if (!implied_normal(frame, x + offsets[i][0], y + offsets[i][1], other))
             return false;
         double dot = 0.0;
         for (int c = 0; c < 3; c++)
@@ -120,8 +90,7 @@ static bool smooth_normal(const io_frame *frame, const float *depth, int32_t x, 
     return true;
 }
 
-static void collect(const io_frame *frame, const float *depth, double cosine,
-                    io__pair_list *pairs)
+static void collect(const io_frame *frame, double cosine, io__pair_list *pairs)
 {
     const int32_t step = io__sampling_step(frame);
     pairs->count = 0;
@@ -132,7 +101,7 @@ static void collect(const io_frame *frame, const float *depth, double cosine,
             const double length = io__length(given);
             /* Averages over a silhouette are short. */
             if (!(length > 0.9 && length < 1.1) || pairs->count == pairs->capacity
-                || !smooth_normal(frame, depth, x, y, cosine, pairs->to[pairs->count]))
+                || !smooth_normal(frame, x, y, cosine, pairs->to[pairs->count]))
                 continue;
             for (int c = 0; c < 3; c++)
                 pairs->from[pairs->count][c] = (float)((double)given[c] / length);
@@ -152,14 +121,12 @@ void io__find_pairs(const io_frame *frame, io__pair_list *pairs)
     const size_t capacity =
         ((size_t)frame->desc.width / step + 1) * ((size_t)frame->desc.height / step + 1);
     memset(pairs, 0, sizeof *pairs);
-    float *depth = planar_depth(frame);
     pairs->from = malloc(capacity * sizeof *pairs->from);
     pairs->to = malloc(capacity * sizeof *pairs->to);
-    if (depth && pairs->from && pairs->to) {
+    if (pairs->from && pairs->to) {
         pairs->capacity = capacity;
-        collect(frame, depth, cos(8.0 * degree), pairs);
+        collect(frame, cos(8.0 * degree), pairs);
         if (pairs->count < PLENTY)
-            collect(frame, depth, cos(25.0 * degree), pairs);
+            collect(frame, cos(25.0 * degree), pairs);
     }
-    free(depth);
 }

@@ -12,7 +12,7 @@ typedef struct io__pair_list {
     size_t count, capacity;
 } io__pair_list;
 
-/* Pairs at well-spread pixels where depth is smooth; none where memory is missing.
+/* Pairs at well-spread pixels where depth is smooth; none if memory is missing.
  * io__free_pairs() must follow. */
 void io__find_pairs(const io_frame *frame, io__pair_list *pairs);
 void io__free_pairs(io__pair_list *pairs);

@@ -16,6 +16,17 @@ typedef enum io_normal_space {
     IO_NORMALS_WORLD = 2 /* needs camera metadata, or the fit */
 } io_normal_space;
 
+/*
+ * How the caller's user says what a frame does not: the remedies that messages end with,
+ * such as "choose with --depth NAME". A member that is NULL stands for plain words.
+ */
+typedef struct io_passes_remedies {
+    const char *depth;        /* to choose the depth channel */
+    const char *normal;       /* to choose the normals, or none */
+    const char *normal_space; /* to say which space they are in */
+    const char *camera;       /* to give the field of view, or an orthographic height */
+} io_passes_remedies;
+
 /* What the caller knows. Zeroed (with depth_format = crv_depth_format_planar()): find
  * all. */
 typedef struct io_passes_request {
@@ -29,16 +40,17 @@ typedef struct io_passes_request {
     float
         view_height; /* > 0: orthographic, height of the display window in scene units */
     io_normal_space normal_space;
+    io_passes_remedies remedies;
 } io_passes_request;
 
 typedef struct io_frame {
     crv_gbuffer_desc desc; /* guard band = overscan beyond the display window */
     crv_camera camera;
-    crv_depth_format depth_format;
     bool has_normals;
     crv_normal_space normal_space;
-    io_image image; /* owns the pixels that the views below show */
-    crv_image depth[CRV_MAX_LAYERS];
+    io_image image;                  /* owns the pixels that the views below show */
+    crv_image depth[CRV_MAX_LAYERS]; /* planar, whatever the file holds; background
+                                        INFINITY */
     crv_image normals;
 } io_frame;
 

@@ -7,7 +7,7 @@
 #include "passes/passes.h"
 
 /* A twentieth of the height that the picture shows at the median depth, rounded to two
- * digits: the same share of the picture whatever the scene's units are. 0 where the frame
+ * digits: the same share of the picture whatever the scene's units are. 0 if the frame
  * is empty. e->gbuffer must hold the frame. Returns an exit code. */
 int radius_suggest(estimator *e, const io_frame *frame, float *out, report *r);
 

@@ -98,7 +98,7 @@ static const arg pass_rows[] = {
      .value = "KIND",
      .type = ARG_CHOICE,
      .choices = layer_kinds,
-     .computed = "surfaces, solid where they are solid2.Z ...",
+     .computed = "surfaces; solid if they are solid2.Z ...",
      .offset = offsetof(ao_settings, layer_kind),
      .help = "what the layers Z, layer2.Z ... are: surfaces that each may occlude, or in "
              "turn the front and the back of solids"},
@@ -174,10 +174,9 @@ static bool uses_planes(const ao_settings *s)
 
 static const char *depth_mistake(const ao_settings *s)
 {
-    bool distance = s->depth_encoding.value == CRV_DEPTH_PLANAR
-                    || s->depth_encoding.value == CRV_DEPTH_RADIAL;
-    bool ortho = s->ortho.given;
-
+    const bool distance = s->depth_encoding.value == CRV_DEPTH_PLANAR
+                          || s->depth_encoding.value == CRV_DEPTH_RADIAL;
+    const bool ortho = s->ortho.given;
     if (!uses_planes(s) && (s->z_near.given || s->z_far.given))
         return "--near: is for --depth-encoding hardware or reversed; leave it out or "
                "add "
@@ -201,13 +200,12 @@ static const char *depth_mistake(const ao_settings *s)
 static bool exists(const char *path)
 {
     struct stat info;
-
     return stat(path, &info) == 0;
 }
 
 static const char *frames_mistake(const ao_settings *s, frame_range *range)
 {
-    if (s->frames == NULL) {
+    if (!s->frames) {
         if (frames_places(s->input) > 0 && !exists(s->input))
             return "--frames: is missing for a name with a frame number in it; add "
                    "--frames A-B";
@@ -225,14 +223,13 @@ static const char *frames_mistake(const ao_settings *s, frame_range *range)
 static int check(const ao_settings *s, frame_range *range, report *r)
 {
     const char *mistake = depth_mistake(s);
-
-    if (mistake == NULL && estimate_is_of_relief(&s->common.options))
+    if (!mistake && estimate_is_of_relief(&s->common.options))
         mistake = "--characteristic field: frames have no relief; leave it out";
-    if (mistake == NULL && s->vfov_deg.given && s->ortho.given)
+    if (!mistake && s->vfov_deg.given && s->ortho.given)
         mistake = "--ortho: contradicts --vfov; give one of them";
-    if (mistake == NULL)
+    if (!mistake)
         mistake = frames_mistake(s, range);
-    if (mistake != NULL) {
+    if (mistake) {
         report_error(r, "%s", mistake);
         return EXIT_USAGE;
     }
@@ -246,8 +243,12 @@ static io_passes_request make_request(const ao_settings *s)
         .normal = s->normal,
         .depth_format = crv_depth_format_planar(),
         .normal_space = (io_normal_space)s->normal_space.value,
+        .remedies = {.depth = "choose with --depth NAME",
+                     .normal = "choose with --normal NAME, or --normal none",
+                     .normal_space = "say --normal-space view if that is what they are",
+                     .camera = "give its vertical field of view with --vfov DEGREES (or "
+                               "--ortho HEIGHT for an orthographic one)"},
     };
-
     request.depth_format.encoding = (crv_depth_encoding)s->depth_encoding.value;
     if (uses_planes(s)) {
         request.depth_format.z_near = (float)s->z_near.value;
@@ -283,8 +284,7 @@ static int upload(estimator *e, const io_frame *frame, report *r)
 static int fix_radius(shot *t, const io_frame *frame, report *r)
 {
     float radius;
-    int result = radius_suggest(&t->estimator, frame, &radius, r);
-
+    const int result = radius_suggest(&t->estimator, frame, &radius, r);
     if (result != EXIT_DONE || !(radius > 0.0f))
         return result;
     t->options.radius = radius;
@@ -297,9 +297,8 @@ static int fix_radius(shot *t, const io_frame *frame, report *r)
 static int write_result(const shot *t, const char *path, const io_frame *frame,
                         io_image *ao, report *r)
 {
-    io_write_options options = {.half = t->settings->half,
-                                .bits = t->settings->bits.value == 0 ? 8 : 16};
-
+    const io_write_options options = {.half = t->settings->half,
+                                      .bits = t->settings->bits.value == 0 ? 8 : 16};
     /* The result lies where the frame does, without its overscan. */
     ao->data_x = frame->image.data_x + frame->desc.guard_left;
     ao->data_y = frame->image.data_y + frame->desc.guard_top;
@@ -327,7 +326,6 @@ static int process(shot *t, const char *input, const char *output, report *r)
     io_frame frame = {0};
     io_image ao = {0};
     int result = output_check(output, input, r);
-
     if (result == EXIT_DONE)
         result = load(t, input, &frame, r);
     if (result == EXIT_DONE)
@@ -353,7 +351,6 @@ static int process_range(shot *t, const frame_range *range, report *r)
 {
     char input[PATH_SIZE], output[PATH_SIZE];
     int result = EXIT_DONE;
-
     for (int32_t f = range->first; f <= range->last && result == EXIT_DONE;
          f += range->step) {
         if (!frames_name(t->settings->input, f, input, sizeof input)
@@ -373,15 +370,14 @@ static int run(const void *settings, report *r)
     shot t = {.settings = s, .has_radius = s->common.radius_given};
     frame_range range;
     int result = check(s, &range, r);
-
     if (result != EXIT_DONE)
         return result;
     t.request = make_request(s);
     t.options = s->common.options;
     result = estimate_open(&t.estimator, &s->common, r);
     if (result == EXIT_DONE)
-        result = s->frames != NULL ? process_range(&t, &range, r)
-                                   : process(&t, s->input, s->output, r);
+        result = s->frames ? process_range(&t, &range, r)
+                           : process(&t, s->input, s->output, r);
     estimate_close(&t.estimator);
     return result;
 }

@@ -7,15 +7,15 @@
 static bool same_desc(const crv_gbuffer_desc *a, const crv_gbuffer_desc *b)
 {
     return a->width == b->width && a->height == b->height && a->layers == b->layers
-           && a->guard_left == b->guard_left && a->guard_top == b->guard_top
-           && a->guard_right == b->guard_right && a->guard_bottom == b->guard_bottom;
+           && a->layer_kind == b->layer_kind && a->guard_left == b->guard_left
+           && a->guard_top == b->guard_top && a->guard_right == b->guard_right
+           && a->guard_bottom == b->guard_bottom;
 }
 
 void facts_compare(frame_facts *first, const io_frame *frame, const char *path, report *r)
 {
     const frame_facts now = {true, frame->has_normals, frame->desc,
                              frame->image.display_width, frame->image.display_height};
-
     if (!first->known) {
         *first = now;
         return;
@@ -29,8 +29,8 @@ void facts_compare(frame_facts *first, const io_frame *frame, const char *path, 
                        now.display_height, first->display_width, first->display_height);
     else if (!same_desc(&now.desc, &first->desc))
         report_warning(r,
-                       "%s: has another data window or other layers than the first "
-                       "frame",
+                       "%s: has another data window, other layers or layers of another "
+                       "kind than the first frame",
                        path);
 }
 
@@ -38,7 +38,6 @@ static bool is_open(const io_image *ao)
 {
     const size_t count = (size_t)ao->width * (size_t)ao->height;
     const float *values = ao->channels[0].data;
-
     for (size_t i = 0; i < count; i++)
         if (values[i] < 1.0f)
             return false;
@@ -48,13 +47,11 @@ static bool is_open(const io_image *ao)
 int facts_check_surface(estimator *e, const io_image *ao, const char *path, report *r)
 {
     const size_t count = (size_t)e->desc.width * (size_t)e->desc.height;
-    bool surface = false;
-    float *depth = NULL;
-    int result;
-
     if (!is_open(ao))
         return EXIT_DONE;
-    result = estimate_depth(e, &depth, r);
+    bool surface = false;
+    float *depth = NULL;
+    const int result = estimate_depth(e, &depth, r);
     for (size_t i = 0; i < count && result == EXIT_DONE && !surface; i++)
         surface = isfinite(depth[i]);
     free(depth);
@@ -71,7 +68,6 @@ int facts_fill_display(io_image *ao, report *r)
     const int32_t width = ao->display_width, height = ao->display_height;
     io_image whole = {0};
     const char *names[] = {ao->channels[0].name};
-
     if (ao->data_x == 0 && ao->data_y == 0 && ao->width == width && ao->height == height)
         return EXIT_DONE;
     if (io_image_init(&whole, width, height, names, 1, &r->logger) != 0)

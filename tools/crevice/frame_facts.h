@@ -13,12 +13,12 @@ typedef struct frame_facts {
     int32_t display_width, display_height;
 } frame_facts;
 
-/* Keeps the facts of the first frame of a shot, and warns where a later one has other
+/* Keeps the facts of the first frame of a shot, and warns if a later one has other
  * passes, another size or overscan. */
 void facts_compare(frame_facts *first, const io_frame *frame, const char *path,
                    report *r);
 
-/* Warns where a picture is open everywhere because no pixel has a usable depth. Returns
+/* Warns if a picture is open everywhere because no pixel has a usable depth. Returns
  * an exit code. */
 int facts_check_surface(estimator *e, const io_image *ao, const char *path, report *r);
 

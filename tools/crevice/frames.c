@@ -9,7 +9,6 @@ static bool parse_frame(const char **text, int32_t *out)
 {
     const char *p = *text;
     int32_t value = 0;
-
     if (!isdigit((unsigned char)*p))
         return false;
     for (; isdigit((unsigned char)*p); p++) {
@@ -25,7 +24,6 @@ static bool parse_frame(const char **text, int32_t *out)
 bool frames_parse(const char *text, frame_range *out)
 {
     frame_range range = {.step = 1};
-
     if (!parse_frame(&text, &range.first))
         return false;
     range.last = range.first;
@@ -45,11 +43,10 @@ bool frames_parse(const char *text, frame_range *out)
     return true;
 }
 
-/* The length of the place that begins here, 0 where none does; *width: its digits. */
+/* The length of the place that begins here, 0 if none does; *width: its digits. */
 static size_t place_at(const char *p, int *width)
 {
     size_t length = strspn(p, "#");
-
     *width = (int)length;
     if (length > 0 || *p != '%')
         return length;
@@ -66,9 +63,8 @@ int32_t frames_places(const char *pattern)
 {
     int32_t count = 0;
     int width;
-
     while (*pattern != '\0') {
-        size_t length = place_at(pattern, &width);
+        const size_t length = place_at(pattern, &width);
         count += length > 0;
         pattern += length > 0 ? length : 1;
     }
@@ -78,13 +74,12 @@ int32_t frames_places(const char *pattern)
 bool frames_name(const char *pattern, int32_t frame, char *out, size_t size)
 {
     size_t used = 0;
-
     while (*pattern != '\0') {
         int width;
-        size_t length = place_at(pattern, &width);
-        int written = length > 0 ? snprintf(out + used, size - used, "%0*d", width, frame)
-                                 : snprintf(out + used, size - used, "%c", *pattern);
-
+        const size_t length = place_at(pattern, &width);
+        const int written = length > 0
+                                ? snprintf(out + used, size - used, "%0*d", width, frame)
+                                : snprintf(out + used, size - used, "%c", *pattern);
         if (written < 0 || (size_t)written >= size - used)
             return false;
         used += (size_t)written;
