@@ -64,10 +64,9 @@ void builtin_groove(mesh *m, scene_view *view)
 void builtin_relief(mesh *m, scene_view *view)
 {
     place world = place_at(0, 0, 0);
-    uint32_t ball;
     shape_quad(m, &world, v3(-12, 0, 8), v3(12, 0, 8), v3(12, 0, -2), v3(-12, 0, -2));
     shape_quad(m, &world, v3(-12, 0, -2), v3(12, 0, -2), v3(12, 8, -2), v3(-12, 8, -2));
-    ball = (uint32_t)m->vertex_count;
+    const uint32_t ball = (uint32_t)m->vertex_count;
     shape_sphere(m, &world, v3(0, 1, 0), 1.0, 256);
     for (uint32_t v = ball; v < m->vertex_count; v++)
         mesh_set_uv(m, v, 4.0 * (double)m->uvs[2 * (size_t)v],

@@ -120,9 +120,9 @@ static void add_blocks(mesh *m, const place *at, const arch *a, double left, dou
             double x = a->centre + side * free, end = side < 0 ? left : right;
             double length = course & 1 ? 0.45 : 0.85;
             while (side * (end - x) > 0.1) {
-                double next = fmin(length, fabs(end - x)), tone;
+                double next = fmin(length, fabs(end - x));
                 double x0 = side < 0 ? x - next : x, x1 = x0 + next;
-                tone = 0.62 + 0.10 * builtin_random(&random);
+                const double tone = 0.62 + 0.10 * builtin_random(&random);
                 mesh_set_colour(m, tone, 0.94 * tone, 0.84 * tone);
                 shape_box(m, at, v3(x0 + joint, y + joint, -0.02),
                           v3(x1, y + rise, 0.045), 0.012);

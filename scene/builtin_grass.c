@@ -14,7 +14,7 @@ static void add_blade(mesh *m, const place *at, vec3 root, double height, double
         double t = (double)i / SEGMENTS, half = 0.5 * width * (1.0 - t * t);
         vec3 spine = v3_along(root, lean, height * bend * t * t);
         vec3 along = v3_along(v3(0.0, 1.0 - 0.6 * bend * t, 0.0), lean, 2.0 * bend * t);
-        vec3 normal = v3_normalize(v3_cross(across, along));
+        vec3 normal = v3_normalise(v3_cross(across, along));
         spine.y += height * (t - 0.3 * bend * t * t);
         mesh_add_vertex(m, place_point(at, v3_along(spine, across, -half)),
                         place_direction(at, normal));

@@ -29,7 +29,6 @@ bool check_mesh_file(const char *path, const crv_logger *log)
 {
     unsigned char header[12] = {0};
     struct stat info;
-    size_t got;
     FILE *file;
     if (stat(path, &info) != 0)
         return refuse_to_open(path, log);
@@ -44,7 +43,7 @@ bool check_mesh_file(const char *path, const crv_logger *log)
     file = fopen(path, "rb");
     if (!file)
         return refuse_to_open(path, log);
-    got = fread(header, 1, sizeof header, file);
+    const size_t got = fread(header, 1, sizeof header, file);
     fclose(file);
     if (got == 0) {
         scene_log(log, CRV_LOG_ERROR, path, "is empty; export the model again");

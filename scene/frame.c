@@ -16,16 +16,15 @@ static bool finite3(const float v[3])
 bool scene_axes_of_view(const scene_view *view, scene_axes *out)
 {
     scene_axes a;
-    vec3 side;
     if (!finite3(view->eye) || !finite3(view->target) || !finite3(view->up))
         return false;
     a.eye = v3_from(view->eye);
-    a.back = v3_normalize(v3_sub(a.eye, v3_from(view->target)));
-    side = v3_cross(v3_normalize(v3_from(view->up)), a.back);
+    a.back = v3_normalise(v3_sub(a.eye, v3_from(view->target)));
+    vec3 side = v3_cross(v3_normalise(v3_from(view->up)), a.back);
     /* Zero where eye is target or up is zero, too. */
     if (!(v3_length(side) > 1e-6))
         return false;
-    a.right = v3_normalize(side);
+    a.right = v3_normalise(side);
     a.up = v3_cross(a.back, a.right);
     *out = a;
     return true;
@@ -110,17 +109,16 @@ void scene_frame(const scene *s, float vfov_rad, float aspect, scene_view *out)
                      0.5 * ((double)s->lower[2] + (double)s->upper[2]));
     vec3 to_eye = v3(cos(ELEVATION_RAD) * sin(AZIMUTH_RAD), sin(ELEVATION_RAD),
                      cos(ELEVATION_RAD) * cos(AZIMUTH_RAD));
-    vec3 up = v3(0.0, 1.0, 0.0), right = v3_normalize(v3_cross(up, to_eye));
+    vec3 up = v3(0.0, 1.0, 0.0), right = v3_normalise(v3_cross(up, to_eye));
     scene_axes axes = {centre, right, v3_cross(to_eye, right), to_eye};
-    double half_height = tan(0.5 * (double)vfov_rad), distance;
-    box_corners box;
+    double half_height = tan(0.5 * (double)vfov_rad);
     scene_view view = {.projection = CRV_PERSPECTIVE, .up = {0.0f, 1.0f, 0.0f}};
     if (s->has_view) {
         *out = fit_own_view(s, half_height, (double)aspect);
         return;
     }
-    box = corners_of_box(s, &axes);
-    distance = fmax(
+    box_corners box = corners_of_box(s, &axes);
+    const double distance = fmax(
         fitting_distance(box.side[0], box.toward, half_height * (double)aspect / MARGIN),
         fitting_distance(box.side[1], box.toward, half_height / MARGIN));
     centre = v3_along(centre, right, centring_shift(box.side[0], box.toward, distance));

@@ -90,8 +90,7 @@ static void set_desc(const scene_gbuffer_request *r, crv_gbuffer_desc *desc)
     crv_gbuffer_desc_init(desc, sizeof *desc, r->width + 2 * r->guard_px,
                           r->height + 2 * r->guard_px);
     desc->layers = r->layers;
-    desc->layer_kind =
-        r->layer_kind == SCENE_LAYERS_BACK ? CRV_LAYERS_SOLID : CRV_LAYERS_SURFACES;
+    desc->layer_kind = r->layer_kind;
     desc->guard_left = desc->guard_top = r->guard_px;
     desc->guard_right = desc->guard_bottom = r->guard_px;
 }
@@ -117,11 +116,11 @@ static void cast_layers(const scene *s, const scene_gbuffer_request *r,
                         scene_gbuffer *g)
 {
     uint32_t past[CRV_MAX_LAYERS];
-    if (found && r->layer_kind == SCENE_LAYERS_BACK)
+    if (found && r->layer_kind == CRV_LAYERS_SOLID)
         prefer_front(s, ray, &hit);
     for (int32_t layer = 0; layer < r->layers; layer++) {
         if (found && layer > 0)
-            found = r->layer_kind == SCENE_LAYERS_BACK
+            found = r->layer_kind == CRV_LAYERS_SOLID
                         ? find_facing_surface(s, ray, layer % 2 == 1, past, layer, &hit)
                         : find_next_surface(s, ray, &hit);
         g->depth[layer][pixel] = found ? (float)hit.depth : INFINITY;
@@ -157,7 +156,6 @@ int scene_render_gbuffer(const scene *s, const scene_gbuffer_request *request,
 {
     scene_gbuffer g = {.view = request->view};
     scene_axes axes;
-    int32_t height;
     if (check_sizes(request, log) || make_camera(request, &axes, &g.camera, log))
         return -1;
     set_desc(request, &g.desc);
@@ -165,7 +163,7 @@ int scene_render_gbuffer(const scene *s, const scene_gbuffer_request *request,
         scene_gbuffer_free(&g);
         return refuse(log, "is too large for the memory there is; make it smaller");
     }
-    height = g.desc.height;
+    const int32_t height = g.desc.height;
 #ifdef _OPENMP
 #pragma omp parallel for schedule(dynamic, 2)                                            \
     num_threads(scene_thread_count(request->threads))

@@ -20,11 +20,11 @@ void mesh_free(mesh *m)
 /* Resizes one array to hold count elements and `spare` bytes. */
 static bool resize(void *array, size_t count, size_t element_size, size_t spare)
 {
-    void *old, *grown;
+    void *old;
     if (count > (SIZE_MAX - spare) / element_size)
         return false;
     memcpy(&old, array, sizeof old);
-    grown = realloc(old, count * element_size + spare);
+    void *grown = realloc(old, count * element_size + spare);
     if (!grown)
         return false;
     memcpy(array, &grown, sizeof grown);
@@ -81,7 +81,6 @@ static float clamped(double value)
 
 void mesh_set_colour(mesh *m, double r, double g, double b)
 {
-    float *colour;
     if (m->colour_count == m->colour_capacity) {
         size_t capacity = grown_capacity(m->colour_capacity, 1);
         if (m->failed || !resize(&m->colours, capacity, 3 * sizeof(float), 0)) {
@@ -90,7 +89,7 @@ void mesh_set_colour(mesh *m, double r, double g, double b)
         }
         m->colour_capacity = capacity;
     }
-    colour = m->colours + 3 * m->colour_count;
+    float *colour = m->colours + 3 * m->colour_count;
     colour[0] = clamped(r);
     colour[1] = clamped(g);
     colour[2] = clamped(b);
@@ -106,7 +105,7 @@ uint32_t mesh_add_vertex(mesh *m, vec3 position, vec3 normal)
         && !set_vertex_capacity(m, grown_capacity(m->vertex_capacity, 1)))
         return 0;
     v3_store(position, m->positions + 3 * index);
-    v3_store(v3_normalize(normal), m->normals + 3 * index);
+    v3_store(v3_normalise(normal), m->normals + 3 * index);
     m->uvs[2 * index] = m->uvs[2 * index + 1] = NAN;
     m->vertex_count++;
     return (uint32_t)index;
@@ -139,10 +138,9 @@ vec3 mesh_face_normal(vec3 a, vec3 b, vec3 c)
 static uint32_t with_usable_normal(mesh *m, uint32_t vertex, vec3 face_normal)
 {
     double length = v3_length(mesh_normal(m, vertex));
-    uint32_t copy;
     if (length > 0.5 && length < 2.0)
         return vertex;
-    copy = mesh_add_vertex(m, mesh_position(m, vertex), face_normal);
+    const uint32_t copy = mesh_add_vertex(m, mesh_position(m, vertex), face_normal);
     if (!m->failed)
         memcpy(m->uvs + 2 * (size_t)copy, m->uvs + 2 * (size_t)vertex,
                2 * sizeof *m->uvs);
@@ -151,13 +149,12 @@ static uint32_t with_usable_normal(mesh *m, uint32_t vertex, vec3 face_normal)
 
 void mesh_add_triangle(mesh *m, uint32_t a, uint32_t b, uint32_t c)
 {
-    vec3 pa, pb, pc, normal;
     if (m->failed)
         return;
-    pa = mesh_position(m, a);
-    pb = mesh_position(m, b);
-    pc = mesh_position(m, c);
-    normal = mesh_face_normal(pa, pb, pc);
+    vec3 pa = mesh_position(m, a);
+    vec3 pb = mesh_position(m, b);
+    vec3 pc = mesh_position(m, c);
+    vec3 normal = mesh_face_normal(pa, pb, pc);
     if (!mesh_usable_position(pa) || !mesh_usable_position(pb)
         || !mesh_usable_position(pc) || !(v3_dot(normal, normal) > 0.0)) {
         m->dropped_triangles++;

@@ -109,7 +109,7 @@ static void measure_faces(const float *positions, const uint32_t *indices,
         vec3 normal = mesh_face_normal(v3_from(positions + 3 * (size_t)corner[0]),
                                        v3_from(positions + 3 * (size_t)corner[1]),
                                        v3_from(positions + 3 * (size_t)corner[2]));
-        v3_store(v3_normalize(normal), face_normals + 3 * t);
+        v3_store(v3_normalise(normal), face_normals + 3 * t);
         for (size_t c = 3 * t; c < 3 * t + 3; c++)
             angles[c] = (float)corner_angle(positions, indices, c);
     }
@@ -130,7 +130,7 @@ static vec3 corner_normal(const neighbours *n, uint32_t vertex, size_t corner,
             sum = v3_along(sum, other, (double)angles[n->corners[i]]);
     }
     /* Zero where sampling passed over all that are alike. */
-    return v3_dot(sum, sum) > 0.0 ? v3_normalize(sum) : own;
+    return v3_dot(sum, sum) > 0.0 ? v3_normalise(sum) : own;
 }
 
 bool smooth_normals(const float *positions, size_t vertex_count, const uint32_t *indices,

@@ -36,12 +36,11 @@ static void get_corners(const mesh *m, uint32_t triangle, vec3 corner[3])
 static void refine(const mesh *m, const pixel_ray *ray, surface_hit *hit)
 {
     vec3 corner[3];
-    double along, depth;
     get_corners(m, hit->triangle, corner);
-    hit->face = v3_normalize(
+    hit->face = v3_normalise(
         v3_cross(v3_sub(corner[1], corner[0]), v3_sub(corner[2], corner[0])));
-    along = v3_dot(hit->face, ray->direction);
-    depth = v3_dot(hit->face, v3_sub(corner[0], ray->origin)) / along;
+    const double along = v3_dot(hit->face, ray->direction);
+    const double depth = v3_dot(hit->face, v3_sub(corner[0], ray->origin)) / along;
     hit->from_back = along > 0.0;
     /* The plane of a triangle that is seen edge-on says little: keep what was found. */
     hit->depth = fabs(depth - (double)hit->found) <= 1e-3 * (double)hit->found
@@ -128,11 +127,10 @@ static void keep_facing(const struct RTCFilterFunctionNArguments *arguments)
     const facing_query *q = (const facing_query *)(const void *)arguments->context;
     /* The packet of one ray has the layout of a single hit. */
     uint32_t triangle = ((const struct RTCHit *)(const void *)arguments->hit)->primID;
-    vec3 corner[3], face;
-    bool keep;
+    vec3 corner[3];
     get_corners(q->mesh, triangle, corner);
-    face = v3_cross(v3_sub(corner[1], corner[0]), v3_sub(corner[2], corner[0]));
-    keep = (v3_dot(face, q->direction) > 0.0) == q->back;
+    vec3 face = v3_cross(v3_sub(corner[1], corner[0]), v3_sub(corner[2], corner[0]));
+    bool keep = (v3_dot(face, q->direction) > 0.0) == q->back;
     for (int i = 0; i < q->past_count; i++)
         keep = keep && q->past[i] != triangle;
     if (!keep)
@@ -203,7 +201,7 @@ vec3 surface_normal(const scene *s, const pixel_ray *ray, const surface_hit *hit
         normal = v3_along(normal, n, weight[i]);
         sum = v3_add(sum, n);
     }
-    normal = v3_normalize(normal);
+    normal = v3_normalise(normal);
     if (!(v3_dot(normal, normal) > 0.5))
         return seen;
     /* Turned as a whole with the triangle: where its normals and its winding disagree the

@@ -119,10 +119,9 @@ static double offset_at(const reference *r, double depth)
 static bool find_point(const reference *r, const pixel_ray *ray, reference_point *out)
 {
     surface_hit hit;
-    vec3 side;
     if (!find_surface(r->scene, ray, 0.0f, &hit))
         return false;
-    side = hit.from_back ? v3_scale(hit.face, -1.0) : hit.face;
+    vec3 side = hit.from_back ? v3_scale(hit.face, -1.0) : hit.face;
     out->normal = surface_normal(r->scene, ray, &hit, r->options.normals);
     out->origin = v3_along(v3_along(ray->origin, ray->direction, hit.depth), side,
                            offset_at(r, hit.depth));
@@ -135,15 +134,15 @@ static bool find_point(const reference *r, const pixel_ray *ray, reference_point
 static bool find_sheet_point(const reference *r, const pixel_ray *ray, size_t pixel,
                              reference_point *out)
 {
-    double depth = (double)r->gbuffer->depth[0][pixel], facing;
-    vec3 to_viewer = v3_scale(v3_normalize(ray->direction), -1.0);
+    double depth = (double)r->gbuffer->depth[0][pixel];
+    vec3 to_viewer = v3_scale(v3_normalise(ray->direction), -1.0);
     if (!(depth > 0.0 && isfinite(depth)))
         return false;
     out->normal =
-        v3_normalize(to_world(&r->axes, v3_from(r->gbuffer->normals + 3 * pixel)));
+        v3_normalise(to_world(&r->axes, v3_from(r->gbuffer->normals + 3 * pixel)));
     if (!(v3_dot(out->normal, out->normal) > 0.5))
         out->normal = to_viewer;
-    facing = fmax(v3_dot(out->normal, to_viewer), 0.01);
+    const double facing = fmax(v3_dot(out->normal, to_viewer), 0.01);
     out->origin = v3_along(v3_along(ray->origin, ray->direction, depth), to_viewer,
                            offset_at(r, depth) / facing);
     return true;

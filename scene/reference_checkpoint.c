@@ -92,13 +92,12 @@ static bool write_all(reference *r, FILE *file)
 {
     checkpoint_header header;
     size_t size = value_bytes(r);
-    uint64_t sum;
     memset(&header, 0, sizeof header);
     memcpy(header.format, FORMAT, sizeof FORMAT);
     header.fingerprint = fingerprint_of(r);
     header.total = reference_total(r);
     header.done = r->done;
-    sum = checksum(&header, r->accessibility, size);
+    uint64_t sum = checksum(&header, r->accessibility, size);
     return fwrite(&header, sizeof header, 1, file) == 1
            && fwrite(r->accessibility, size, 1, file) == 1
            && fwrite(&sum, sizeof sum, 1, file) == 1 && !fflush(file)
@@ -116,12 +115,10 @@ static int fail(const crv_logger *log, const char *path, int reason)
 /* What a killed run left is replaced; a link that somebody put there is not followed. */
 static FILE *open_new(const char *path)
 {
-    int descriptor;
-    FILE *file;
     remove(path);
     errno = 0;
-    descriptor = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    file = descriptor >= 0 ? fdopen(descriptor, "wb") : NULL;
+    const int descriptor = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    FILE *file = descriptor >= 0 ? fdopen(descriptor, "wb") : NULL;
     if (descriptor >= 0 && !file) {
         close(descriptor);
         remove(path);
@@ -142,9 +139,6 @@ int reference_save(reference *r, const char *path, const crv_logger *log)
 {
     size_t length = strlen(path);
     char *temporary = malloc(length + sizeof ".tmp");
-    FILE *file;
-    bool written;
-    int reason;
     if (r->falloffs) {
         free(temporary);
         return refuse(log, path, no_checkpoint);
@@ -153,9 +147,9 @@ int reference_save(reference *r, const char *path, const crv_logger *log)
         return fail(log, path, ENOMEM);
     memcpy(temporary, path, length);
     memcpy(temporary + length, ".tmp", sizeof ".tmp");
-    file = open_new(temporary);
-    written = file && write_all(r, file);
-    reason = errno;
+    FILE *file = open_new(temporary);
+    bool written = file && write_all(r, file);
+    int reason = errno;
     if (file && fclose(file) && written) {
         written = false;
         reason = errno;

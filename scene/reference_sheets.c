@@ -83,11 +83,11 @@ static bool on_line(const sheet *s, double before, double here, double there,
 static bool belong_together(const sheet *s, int32_t x, int32_t y, int32_t dx, int32_t dy)
 {
     const crv_camera *c = &s->g->camera;
-    double a = depth_at(s, x, y), b = depth_at(s, x + dx, y + dy), tolerance;
+    double a = depth_at(s, x, y), b = depth_at(s, x + dx, y + dy);
     if (!(a > 0.0) || !(b > 0.0))
         return false;
-    tolerance = SLOPE_FOOTPRINTS * (s->ortho ? 1.0 : fmin(a, b))
-                / (double)(dx ? c->fx_px : c->fy_px);
+    const double tolerance = SLOPE_FOOTPRINTS * (s->ortho ? 1.0 : fmin(a, b))
+                             / (double)(dx ? c->fx_px : c->fy_px);
     return fabs(a - b) <= tolerance
            || on_line(s, depth_at(s, x - dx, y - dy), a, b, tolerance)
            || on_line(s, depth_at(s, x + 2 * dx, y + 2 * dy), b, a, tolerance);
@@ -150,13 +150,13 @@ static double edge_depth(const sheet *s, int32_t x, int32_t y, int32_t dx, int32
 static quarter quarter_of(const sheet *s, int32_t x, int32_t y, int32_t dx, int32_t dy)
 {
     quarter q = {.x = x, .y = y, .depth = depth_at(s, x, y)};
-    double middle;
     if (!(q.depth > 0.0))
         return q;
     q.beside = edge_depth(s, x, y, dx, 0);
     q.along = edge_depth(s, x, y, 0, dy);
-    middle = from_slope_value(s, to_slope_value(s, q.beside) + to_slope_value(s, q.along)
-                                     - to_slope_value(s, q.depth));
+    const double middle =
+        from_slope_value(s, to_slope_value(s, q.beside) + to_slope_value(s, q.along)
+                                - to_slope_value(s, q.depth));
     q.middle = fmin(fmax(middle, 0.5 * q.depth), 2.0 * q.depth);
     return q;
 }

@@ -133,7 +133,7 @@ static int32_t rays_of_copy(int32_t rays, int32_t copies, int32_t copy)
  * that is claimed. */
 static reference_value summary(const double *sum, int32_t copies, int32_t rays)
 {
-    double mean = 0.0, spread = 0.0, error;
+    double mean = 0.0, spread = 0.0;
     for (int32_t c = 0; c < copies; c++)
         mean += sum[c] / (double)rays;
     for (int32_t c = 0; c < copies; c++) {
@@ -141,7 +141,7 @@ static reference_value summary(const double *sum, int32_t copies, int32_t rays)
         double deviation = sum[c] / (double)rays - share * mean;
         spread += deviation * deviation;
     }
-    error = copies > 1 ? sqrt(spread * copies / (copies - 1)) : 0.5;
+    const double error = copies > 1 ? sqrt(spread * copies / (copies - 1)) : 0.5;
     return (reference_value){.accessibility = (float)fmin(fmax(mean, 0.0), 1.0),
                              .error = (float)fmin(fmax(error, 1.0 / rays), 0.5),
                              .rays = rays};

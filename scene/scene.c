@@ -17,11 +17,10 @@ void scene_log(const crv_logger *log, crv_log_level level, const char *name,
                const char *format, ...)
 {
     char line[1024];
-    int used;
     va_list arguments;
     if (!log || !log->fn)
         return;
-    used = snprintf(line, sizeof line, "%.600s: ", name);
+    const int used = snprintf(line, sizeof line, "%.600s: ", name);
     if (used < 0)
         return;
     va_start(arguments, format);
@@ -61,13 +60,12 @@ static void set_bounds(scene *s)
 
 static bool build_acceleration(scene *s)
 {
-    RTCGeometry geometry;
     /* One thread builds: how parallel builds order the triangles, and with it which of
      * two coincident ones a ray meets, may change from run to run. */
     s->device = rtcNewDevice("threads=1");
     if (!s->device)
         return false;
-    geometry = rtcNewGeometry(s->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    RTCGeometry geometry = rtcNewGeometry(s->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                s->mesh.positions, 0, 3 * sizeof(float),
                                s->mesh.vertex_count);

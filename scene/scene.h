@@ -53,16 +53,6 @@ void scene_frame(const scene *s, float vfov_rad, float aspect, scene_view *out);
  * the target, rounded to two digits. */
 float scene_suggest_radius(const scene *s, const scene_view *view);
 
-typedef enum scene_layers {
-    /* Each further layer is the next surface along the ray: CRV_LAYERS_SURFACES. */
-    SCENE_LAYERS_NEXT = 0,
-    /* Fronts and backs of solids: layer 1 is the next surface after layer 0 that faces
-     * away, layer 2 the next after layer 1 that faces the viewer, layer 3 the next after
-     * that which faces away: CRV_LAYERS_SOLID. Depths do not fall from layer to layer;
-     * they are equal where solids touch. Once there is none, further layers are empty. */
-    SCENE_LAYERS_BACK = 1
-} scene_layers;
-
 typedef enum scene_normals {
     SCENE_NORMALS_INTERPOLATED =
         0, /* of the vertices, turned with the triangle to the viewer */
@@ -74,7 +64,13 @@ typedef struct scene_gbuffer_request {
     int32_t width, height; /* px, without the guard band */
     int32_t guard_px;      /* on each side; 0 or more */
     int32_t layers;        /* 1 to CRV_MAX_LAYERS */
-    scene_layers layer_kind;
+    /* CRV_LAYERS_SURFACES: each further layer is the next surface along the ray.
+     * CRV_LAYERS_SOLID: fronts and backs of solids: layer 1 is the next surface after
+     * layer 0 that faces away, layer 2 the next after layer 1 that faces the viewer,
+     * layer 3 the next after that which faces away. Depths do not fall from layer to
+     * layer; they are equal where solids touch. Once there is none, further layers are
+     * empty. */
+    crv_layers layer_kind;
     scene_normals normals;
     int32_t threads;     /* 0: OpenMP's choice */
     bool texture_frames; /* also fill uv, tangent and bitangent */

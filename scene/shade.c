@@ -56,18 +56,17 @@ static vec3 shade_pixel(const lighting *l, int32_t x, int32_t y, double accessib
 {
     const scene_gbuffer *g = l->gbuffer;
     size_t pixel = (size_t)y * (size_t)g->desc.width + (size_t)x;
-    double depth = (double)g->depth[0][pixel], facing;
+    double depth = (double)g->depth[0][pixel];
     pixel_ray ray = ray_through_pixel(&g->camera, &l->axes, x, y);
-    vec3 n, normal, point, light;
     if (!(depth > 0.0 && isfinite(depth)))
-        return sky_radiance(&l->light, to_sky(l, v3_normalize(ray.direction)));
-    n = v3_from(g->normals + 3 * pixel);
-    normal = v3_along(v3_along(v3_scale(l->axes.right, n.x), l->axes.up, n.y),
-                      l->axes.back, n.z);
-    point = v3_along(ray.origin, ray.direction, depth);
-    light = v3_scale(sky_irradiance(&l->light, &l->table, to_sky(l, normal)),
-                     accessibility / SCENE_PI);
-    facing = v3_dot(normal, l->to_key);
+        return sky_radiance(&l->light, to_sky(l, v3_normalise(ray.direction)));
+    vec3 n = v3_from(g->normals + 3 * pixel);
+    vec3 normal = v3_along(v3_along(v3_scale(l->axes.right, n.x), l->axes.up, n.y),
+                           l->axes.back, n.z);
+    vec3 point = v3_along(ray.origin, ray.direction, depth);
+    vec3 light = v3_scale(sky_irradiance(&l->light, &l->table, to_sky(l, normal)),
+                          accessibility / SCENE_PI);
+    double facing = v3_dot(normal, l->to_key);
     if (l->has_key && facing > 0.0
         && !in_shadow(l, shadow_origin(l, point, normal, depth)))
         light = v3_along(light, l->key_colour, facing);
@@ -111,18 +110,18 @@ static void turn_sky(vec3 up, vec3 axes[3])
 
 static vec3 unit_or(const float given[3], vec3 otherwise)
 {
-    vec3 v = v3_normalize(v3_from(given));
+    vec3 v = v3_normalise(v3_from(given));
     return v3_dot(v, v) > 0.5 ? v : otherwise;
 }
 
 static void prepare(lighting *l, const scene_lighting *given)
 {
-    vec3 view_up = v3_normalize(v3_from(l->gbuffer->view.up)), shoulder;
+    vec3 view_up = v3_normalise(v3_from(l->gbuffer->view.up));
     l->light = given ? *given : scene_lighting_default();
     turn_sky(unit_or(l->light.sky_up, view_up), l->sky);
     if (l->light.sky == SCENE_SKY_GRADIENT)
         sky_fill_table(&l->table);
-    shoulder = v3_normalize(v3_along(
+    vec3 shoulder = v3_normalise(v3_along(
         v3_along(v3_scale(l->axes.right, -0.62), view_up, 0.8), l->axes.back, 0.42));
     l->to_key = unit_or(l->light.key_direction, shoulder);
     l->key_colour = v3_from(l->light.key_colour);

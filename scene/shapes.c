@@ -217,12 +217,11 @@ void shape_lathe(mesh *m, const place *at, const profile_point *profile, int cou
     for (int k = 0; k + 1 < count; k++) {
         const profile_point *p = profile + k;
         double own[2], low[2], high[2];
-        uint32_t below, above;
         segment_normal(p, own);
         end_normal(own, p - 1, k > 0 && !p[0].sharp, low);
         end_normal(own, p + 1, k + 2 < count && !p[1].sharp, high);
-        below = add_lathe_ring(m, at, p, low, segments);
-        above = add_lathe_ring(m, at, p + 1, high, segments);
+        const uint32_t below = add_lathe_ring(m, at, p, low, segments);
+        const uint32_t above = add_lathe_ring(m, at, p + 1, high, segments);
         for (uint32_t i = 0; i < (uint32_t)segments; i++) {
             uint32_t next = (i + 1) % (uint32_t)segments;
             if (p[0].radius > 0.0)
@@ -296,7 +295,7 @@ void shape_fluted_shaft(mesh *m, const place *at, double bottom_radius, double t
 static vec3 any_perpendicular(vec3 v)
 {
     vec3 other = fabs(v.y) < 0.9 ? v3(0, 1, 0) : v3(1, 0, 0);
-    return v3_normalize(v3_cross(v, other));
+    return v3_normalise(v3_cross(v, other));
 }
 
 void shape_tube(mesh *m, const place *at, const vec3 *points, int count, double radius,
@@ -305,13 +304,12 @@ void shape_tube(mesh *m, const place *at, const vec3 *points, int count, double 
     vec3 side = v3(0, 0, 0), along = v3(0, 0, 0);
     uint32_t step = (uint32_t)segments, ring = 0;
     for (int k = 0; k < count; k++) {
-        vec3 other;
-        along = v3_normalize(
+        along = v3_normalise(
             v3_sub(points[k + 1 < count ? k + 1 : k], points[k > 0 ? k - 1 : 0]));
         /* Carried on from ring to ring, so that the tube does not twist. */
         side = k == 0 ? any_perpendicular(along)
-                      : v3_normalize(v3_along(side, along, -v3_dot(side, along)));
-        other = v3_cross(along, side);
+                      : v3_normalise(v3_along(side, along, -v3_dot(side, along)));
+        vec3 other = v3_cross(along, side);
         ring = (uint32_t)m->vertex_count;
         for (int i = 0; i < segments; i++) {
             double angle = 2.0 * SCENE_PI * i / segments;

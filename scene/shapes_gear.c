@@ -129,10 +129,9 @@ void shape_gear(mesh *m, const place *at, const gear *g)
     double outline[MAX_TEETH * POINTS_A_TOOTH][2];
     double half = 0.5 * g->width;
     double rim = gear_pitch_radius(g) - 2.6 * g->module;
-    int count;
     if (g->teeth < 3 || g->teeth > MAX_TEETH)
         return;
-    count = gear_outline(g, outline);
+    const int count = gear_outline(g, outline);
     shape_plate(m, at, (const double(*)[2])outline, count, rim, -half, half);
     if (g->teeth >= 16)
         add_spokes(m, at, 1.6 * g->bore, rim + 0.2 * g->module, 0.10 * rim, g->phase_rad);

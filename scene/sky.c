@@ -36,12 +36,12 @@ static vec3 gradient(vec3 low, vec3 high, double height)
 static double facing_over_azimuth(double cosine, double height)
 {
     double across = sqrt(fmax(0.0, 1.0 - cosine * cosine) * (1.0 - height * height));
-    double along = cosine * height, half;
+    double along = cosine * height;
     if (along >= across)
         return 2.0 * SCENE_PI * along;
     if (along <= -across)
         return 0.0;
-    half = acos(-along / across);
+    const double half = acos(-along / across);
     return 2.0 * (along * half + across * sin(half));
 }
 

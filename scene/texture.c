@@ -18,7 +18,7 @@ bool surface_texture(const scene *s, const pixel_ray *ray, const surface_hit *hi
                      texture_frame *out)
 {
     const uint32_t *index = s->mesh.indices + 3 * (size_t)hit->triangle;
-    double uv[3][2], edge[2][2], weight[3], area, largest = 0.0, longest;
+    double uv[3][2], edge[2][2], weight[3], largest = 0.0;
     vec3 corner[3], side[2];
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 2; k++)
@@ -28,8 +28,8 @@ bool surface_texture(const scene *s, const pixel_ray *ray, const surface_hit *hi
     for (int i = 0; i < 2; i++)
         for (int k = 0; k < 2; k++)
             edge[i][k] = uv[i + 1][k] - uv[0][k];
-    area = edge[0][0] * edge[1][1] - edge[1][0] * edge[0][1];
-    longest = fmax(magnitude(edge[0]), magnitude(edge[1]));
+    const double area = edge[0][0] * edge[1][1] - edge[1][0] * edge[0][1];
+    const double longest = fmax(magnitude(edge[0]), magnitude(edge[1]));
     /* False for NaN, which stands for no coordinates, too. */
     if (!(fabs(area) > ROUNDING * largest * longest))
         return false;

@@ -67,7 +67,7 @@ static inline double v3_length(vec3 a)
 }
 
 /* Zero stays zero. */
-static inline vec3 v3_normalize(vec3 a)
+static inline vec3 v3_normalise(vec3 a)
 {
     double length = v3_length(a);
     return length > 0.0 ? v3_scale(a, 1.0 / length) : a;

@@ -40,12 +40,11 @@ typedef struct groove {
 static groove open_groove(void)
 {
     groove v = {0};
-    scene_gbuffer_request request;
     scene_view view;
     assert_int_equal(scene_builtin("groove", &v.s, NULL), 0);
     scene_frame(v.s, 1.0f, 4.0f, &view);
     view.view_height = 0.5f;
-    request = request_of(&view, WIDTH, HEIGHT);
+    scene_gbuffer_request request = request_of(&view, WIDTH, HEIGHT);
     v.g = render(v.s, &request);
     return v;
 }
@@ -243,11 +242,10 @@ static void test_falloffs(void **state)
     scene_view view =
         look(CRV_PERSPECTIVE, (double[3]){0, 0.2, 1}, (double[3]){0, 0, 0}, 0.0);
     scene_gbuffer_request request = request_of(&view, 8, 4);
-    scene_gbuffer g;
     (void)state;
     view.vfov_rad = 0.1f;
     request.view = view;
-    g = render(s, &request);
+    scene_gbuffer g = render(s, &request);
     for (int falloff = CRV_FALLOFF_NONE; falloff <= CRV_FALLOFF_ALCHEMY; falloff++) {
         for (int weighting = 0; weighting <= 1; weighting++) {
             reference_options o =
@@ -339,11 +337,10 @@ static void test_visible_groove(void **state)
 {
     groove v = open_groove();
     reference_options o = options_of(CRV_WEIGHTING_COSINE, CRV_FALLOFF_NONE, 0.2, 1024);
-    reference *r;
     double sum = 0.0;
     (void)state;
     o.kind = REFERENCE_VISIBLE;
-    r = make(v.s, &v.g, &o);
+    reference *r = make(v.s, &v.g, &o);
     for (int32_t y = 13; y < 19; y++)
         for (int32_t x = 67; x < 72; x++)
             sum += (double)reference_pixel(r, x, y).accessibility - 1.0
@@ -387,10 +384,9 @@ static void test_empty(void **state)
     scene_view view =
         look(CRV_PERSPECTIVE, (double[3]){0, 3, 0}, (double[3]){0, 9, 1}, 0.0);
     scene_gbuffer_request request = request_of(&view, 5, 3);
-    scene_gbuffer g;
     (void)state;
     assert_int_equal(scene_builtin("plane", &s, NULL), 0);
-    g = render(s, &request);
+    scene_gbuffer g = render(s, &request);
     for (int kind = 0; kind <= 1; kind++) {
         reference_options o = options_of(CRV_WEIGHTING_COSINE, CRV_FALLOFF_NONE, 1.0, 16);
         float least, greatest;
@@ -410,10 +406,9 @@ static void test_adaptive(void **state)
     reference_options o = options_of(CRV_WEIGHTING_COSINE, CRV_FALLOFF_NONE, 1.0, 65536);
     tally t = {0};
     int64_t rays = 0;
-    reference *r;
     (void)state;
     o.max_error = 0.004f;
-    r = make(v.s, &v.g, &o);
+    reference *r = make(v.s, &v.g, &o);
     for (size_t i = 0; i < COLUMNS; i++) {
         for (int32_t y = 0; y < HEIGHT; y++) {
             reference_value value = reference_pixel(r, columns[i], y);

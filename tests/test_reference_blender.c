@@ -55,13 +55,12 @@ static comparison compare_images(const reference *r, const io_image *blender)
         for (int32_t x = STEP / 2; x < WIDTH; x += STEP) {
             size_t pixel = (size_t)y * WIDTH + (size_t)x;
             double n[3];
-            reference_value value;
             for (int i = 0; i < 3; i++)
                 n[i] = (double)blender->channels[1 + i].data[pixel];
             /* Background, and where samples of two surfaces were averaged. */
             if (fabs(sqrt(dot(n, n)) - 1.0) > 0.01)
                 continue;
-            value = reference_pixel(r, x, y);
+            reference_value value = reference_pixel(r, x, y);
             if (value.rays > 0)
                 compare_pixel(&c, (double)value.accessibility, (double)value.error,
                               (double)blender->channels[0].data[pixel]);
@@ -81,20 +80,17 @@ static void compare_frame(const char *shared, const frame *f)
     char path[1024];
     scene *s = NULL;
     scene_view view = look(CRV_PERSPECTIVE, f->eye, f->target, 0.0);
-    scene_gbuffer_request request;
-    scene_gbuffer g;
     reference *r = NULL;
     io_image blender;
-    comparison c;
     view.vfov_rad = (float)(f->vfov_deg * PI / 180.0);
-    request = request_of(&view, WIDTH, HEIGHT);
+    scene_gbuffer_request request = request_of(&view, WIDTH, HEIGHT);
     snprintf(path, sizeof path, "%s/scenes/%s.glb", shared, f->name);
     assert_int_equal(scene_load(path, &s, NULL), 0);
-    g = render(s, &request);
+    scene_gbuffer g = render(s, &request);
     assert_int_equal(reference_create(s, &g, &options, &r, NULL), 0);
     snprintf(path, sizeof path, "%s/scenes/blender/%s.exr", shared, f->name);
     assert_int_equal(io_read(path, names, 4, &blender, NULL), 0);
-    c = compare_images(r, &blender);
+    comparison c = compare_images(r, &blender);
     print_message("%s: %d pixels, RMSE %.5f, sampling explains %.5f, mean difference "
                   "%+.5f; beyond five deviations %.3f %%, RMSE without those %.5f\n",
                   f->name, c.pixels, sqrt(c.error2 / c.pixels), sqrt(c.noise2 / c.pixels),

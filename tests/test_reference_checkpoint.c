@@ -22,11 +22,10 @@ typedef struct fixture {
 static fixture open_fixture(reference_kind kind)
 {
     fixture f = {0};
-    scene_gbuffer_request request;
     scene_view view;
     assert_int_equal(scene_builtin("sphere", &f.s, NULL), 0);
     scene_frame(f.s, 0.7f, (float)WIDTH / HEIGHT, &view);
-    request = request_of(&view, WIDTH, HEIGHT);
+    scene_gbuffer_request request = request_of(&view, WIDTH, HEIGHT);
     request.guard_px = 3;
     f.g = render(f.s, &request);
     f.options = (reference_options){.weighting = CRV_WEIGHTING_COSINE,
@@ -156,9 +155,8 @@ static void test_foreign(void **state)
 static size_t read_back(const char *path, char *data, size_t size)
 {
     FILE *file = fopen(path, "rb");
-    size_t count;
     assert_non_null(file);
-    count = fread(data, 1, size, file);
+    const size_t count = fread(data, 1, size, file);
     fclose(file);
     return count;
 }
@@ -168,11 +166,10 @@ static void test_damaged(void **state)
     static char data[65536], changed[65536];
     fixture f = open_fixture(REFERENCE_FULL);
     reference *r = make(&f);
-    size_t size;
     (void)state;
     reference_advance(r, 500, 0);
     assert_int_equal(reference_save(r, f.path, NULL), 0);
-    size = read_back(f.path, data, sizeof data);
+    size_t size = read_back(f.path, data, sizeof data);
     assert_true(size > 8 * PIXELS && size < sizeof data);
     for (size_t cut = 0; cut < size; cut += 1 + size / 37) {
         write_file("work.checkpoint", data, cut);

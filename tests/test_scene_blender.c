@@ -33,13 +33,11 @@ static scene_gbuffer cast(const char *shared, const frame *f)
     char path[1024];
     scene *s = NULL;
     scene_view view = look(CRV_PERSPECTIVE, f->eye, f->target, 0.0);
-    scene_gbuffer_request request;
-    scene_gbuffer g;
     view.vfov_rad = (float)(f->vfov_deg * PI / 180.0);
-    request = request_of(&view, WIDTH, HEIGHT);
+    scene_gbuffer_request request = request_of(&view, WIDTH, HEIGHT);
     snprintf(path, sizeof path, "%s/scenes/%s.glb", shared, f->name);
     assert_int_equal(scene_load(path, &s, NULL), 0);
-    g = render(s, &request);
+    scene_gbuffer g = render(s, &request);
     scene_free(s);
     return g;
 }
@@ -49,7 +47,7 @@ static void count_pixel(counts *c, const scene_gbuffer *g, const io_image *blend
 {
     double depth = (double)g->depth[0][pixel];
     double expected = (double)blender->channels[0].data[pixel];
-    double n[3], own[3], length;
+    double n[3], own[3];
     if (isinf(depth) != (expected >= 1e10)) {
         c->background_differs++;
         return;
@@ -60,7 +58,7 @@ static void count_pixel(counts *c, const scene_gbuffer *g, const io_image *blend
     c->depth_agrees += fabs(depth - expected) < 1e-4 * expected;
     for (int i = 0; i < 3; i++)
         n[i] = (double)blender->channels[1 + i].data[pixel];
-    length = sqrt(dot(n, n));
+    const double length = sqrt(dot(n, n));
     /* Where samples of two surfaces were averaged the normal is shorter. */
     if (fabs(length - 1.0) > 0.01)
         return;

@@ -49,10 +49,9 @@ static scene *box_scene(double x, double y, double z, double offset)
 static void check_framing(const scene *s, double vfov, double aspect)
 {
     scene_view view;
-    seen_box box;
     double reach = 0.0;
     scene_frame(s, (float)vfov, (float)aspect, &view);
-    box = see_box(s, &view, aspect);
+    seen_box box = see_box(s, &view, aspect);
     for (int i = 0; i < 2; i++) {
         /* In the middle, to a hundredth of the picture. */
         assert_true(fabs(box.low[i] + box.high[i]) < 0.02);

@@ -7,11 +7,10 @@ enum { WIDTH = 120, HEIGHT = 67 };
 
 static scene_gbuffer_request courtyard_request(scene **s)
 {
-    scene_gbuffer_request request;
     scene_view view;
     assert_int_equal(scene_builtin("courtyard", s, NULL), 0);
     scene_frame(*s, 0.8f, (float)WIDTH / HEIGHT, &view);
-    request = request_of(&view, WIDTH, HEIGHT);
+    scene_gbuffer_request request = request_of(&view, WIDTH, HEIGHT);
     request.layers = 2;
     return request;
 }
@@ -33,11 +32,10 @@ static void check_guard_band(crv_projection projection)
 {
     scene *s = NULL;
     scene_gbuffer_request request = courtyard_request(&s);
-    scene_gbuffer plain, banded;
     request.view.projection = projection;
-    plain = render(s, &request);
+    scene_gbuffer plain = render(s, &request);
     request.guard_px = 13;
-    banded = render(s, &request);
+    scene_gbuffer banded = render(s, &request);
     assert_int_equal(banded.desc.width, WIDTH + 26);
     assert_int_equal(banded.desc.height, HEIGHT + 26);
     assert_int_equal(banded.desc.guard_left, 13);
@@ -59,10 +57,10 @@ static void test_threads_do_not_matter(void **state)
 {
     scene *s = NULL;
     scene_gbuffer_request request = courtyard_request(&s);
-    scene_gbuffer one, many;
+    scene_gbuffer many;
     (void)state;
     request.threads = 1;
-    one = render(s, &request);
+    scene_gbuffer one = render(s, &request);
     for (int32_t threads = 2; threads <= 7; threads += 5) {
         request.threads = threads;
         many = render(s, &request);
@@ -171,7 +169,6 @@ static void test_upload(void **state)
 {
     scene *s = NULL;
     scene_gbuffer_request request = courtyard_request(&s);
-    scene_gbuffer g;
     crv_context *context = NULL;
     crv_gbuffer *buffer = NULL;
     static float depth[WIDTH * HEIGHT];
@@ -180,7 +177,7 @@ static void test_upload(void **state)
     request.width -= 10;
     request.height -= 10;
     request.guard_px = 5;
-    g = render(s, &request);
+    scene_gbuffer g = render(s, &request);
     assert_int_equal(crv_context_create(NULL, &context), CRV_OK);
     /* Made the first time, refilled the second. */
     for (int round = 0; round < 2; round++) {

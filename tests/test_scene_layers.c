@@ -56,7 +56,7 @@ static void assert_depth(float found, double expected)
 }
 
 static scene_gbuffer render_layers(const scene *s, crv_projection projection,
-                                   scene_layers kind, int32_t layers)
+                                   crv_layers kind, int32_t layers)
 {
     static const double eye[3] = {3.1, 2.2, 4.3}, target[3] = {0.1, 0.05, 0};
     scene_view view = look(projection, eye, target, 4.0);
@@ -66,18 +66,16 @@ static scene_gbuffer render_layers(const scene *s, crv_projection projection,
     return render(s, &request);
 }
 
-static void check_nested(crv_projection projection, scene_layers kind)
+static void check_nested(crv_projection projection, crv_layers kind)
 {
     char text[4096] = "";
-    scene *s;
-    scene_gbuffer g;
     int inner_hits = 0;
     append_box(text, sizeof text, 0.0, 1.0, 0);
     append_box(text, sizeof text, 0.0, 0.5, 8);
-    s = load_text("nested.obj", text);
-    g = render_layers(s, projection, kind, 4);
+    scene *s = load_text("nested.obj", text);
+    scene_gbuffer g = render_layers(s, projection, kind, 4);
     assert_int_equal(g.desc.layer_kind,
-                     kind == SCENE_LAYERS_BACK ? CRV_LAYERS_SOLID : CRV_LAYERS_SURFACES);
+                     kind == CRV_LAYERS_SOLID ? CRV_LAYERS_SOLID : CRV_LAYERS_SURFACES);
     for (int32_t y = 0; y < HEIGHT; y++)
         for (int32_t x = 0; x < WIDTH; x++) {
             int32_t pixel = y * WIDTH + x;
@@ -90,12 +88,12 @@ static void check_nested(crv_projection projection, scene_layers kind)
                 continue;
             if (outer)
                 next[count++] = in[0];
-            if (inner && kind == SCENE_LAYERS_NEXT)
+            if (inner && kind == CRV_LAYERS_SURFACES)
                 next[count++] = in[1];
             if (inner)
                 next[count++] = out[1];
             /* Fronts and backs: nothing faces the viewer beyond the inner box's back. */
-            if (outer && !(inner && kind == SCENE_LAYERS_BACK))
+            if (outer && !(inner && kind == CRV_LAYERS_SOLID))
                 next[count++] = out[0];
             inner_hits += inner;
             for (int layer = 0; layer < 4; layer++)
@@ -109,15 +107,15 @@ static void check_nested(crv_projection projection, scene_layers kind)
 static void test_next_surfaces(void **state)
 {
     (void)state;
-    check_nested(CRV_PERSPECTIVE, SCENE_LAYERS_NEXT);
-    check_nested(CRV_ORTHOGRAPHIC, SCENE_LAYERS_NEXT);
+    check_nested(CRV_PERSPECTIVE, CRV_LAYERS_SURFACES);
+    check_nested(CRV_ORTHOGRAPHIC, CRV_LAYERS_SURFACES);
 }
 
 static void test_back_faces(void **state)
 {
     (void)state;
-    check_nested(CRV_PERSPECTIVE, SCENE_LAYERS_BACK);
-    check_nested(CRV_ORTHOGRAPHIC, SCENE_LAYERS_BACK);
+    check_nested(CRV_PERSPECTIVE, CRV_LAYERS_SOLID);
+    check_nested(CRV_ORTHOGRAPHIC, CRV_LAYERS_SOLID);
 }
 
 /* Two solids in a row are two pairs of layers, also where one begins in the very place
@@ -125,14 +123,12 @@ static void test_back_faces(void **state)
 static void check_pairs(crv_projection projection, double gap)
 {
     char text[4096] = "";
-    scene *s;
-    scene_gbuffer g;
     const double x[2] = {0.5 + gap, -0.5};
     int both = 0;
     append_box(text, sizeof text, x[0], 0.5, 0);
     append_box(text, sizeof text, x[1], 0.5, 8);
-    s = load_text("pairs.obj", text);
-    g = render_layers(s, projection, SCENE_LAYERS_BACK, 4);
+    scene *s = load_text("pairs.obj", text);
+    scene_gbuffer g = render_layers(s, projection, CRV_LAYERS_SOLID, 4);
     for (int32_t pixel = 0; pixel < WIDTH * HEIGHT; pixel++) {
         ray r = ray_of_pixel(&g, pixel % WIDTH, pixel / WIDTH);
         double expected[4] = {INFINITY, INFINITY, INFINITY, INFINITY};
@@ -170,13 +166,12 @@ static void check_sheet(const char *faces)
 {
     char text[4096] = "";
     scene *s;
-    scene_gbuffer g;
     int sheets = 0;
     append_box(text, sizeof text, 0.0, 0.5, 0);
     snprintf(text + strlen(text), sizeof text - strlen(text),
              "v -1 -1 1.3\nv 1 -1 1.3\nv 1 1 1.3\nv -1 1 1.3\n%s", faces);
     s = load_text("sheet.obj", text);
-    g = render_layers(s, CRV_PERSPECTIVE, SCENE_LAYERS_BACK, 2);
+    scene_gbuffer g = render_layers(s, CRV_PERSPECTIVE, CRV_LAYERS_SOLID, 2);
     for (int32_t pixel = 0; pixel < WIDTH * HEIGHT; pixel++) {
         ray r = ray_of_pixel(&g, pixel % WIDTH, pixel / WIDTH);
         double depth = (1.3 - r.origin[2]) / r.direction[2];
@@ -204,14 +199,12 @@ static void test_sheet_has_no_thickness(void **state)
 static void test_coincident_surfaces_are_one(void **state)
 {
     char text[4096] = "";
-    scene *s;
-    scene_gbuffer g;
     int hits = 0;
     (void)state;
     append_box(text, sizeof text, 0.0, 1.0, 0);
     append_box(text, sizeof text, 0.0, 1.0, 8);
-    s = load_text("twice.obj", text);
-    g = render_layers(s, CRV_PERSPECTIVE, SCENE_LAYERS_NEXT, 3);
+    scene *s = load_text("twice.obj", text);
+    scene_gbuffer g = render_layers(s, CRV_PERSPECTIVE, CRV_LAYERS_SURFACES, 3);
     for (int32_t pixel = 0; pixel < WIDTH * HEIGHT; pixel++) {
         ray r = ray_of_pixel(&g, pixel % WIDTH, pixel / WIDTH);
         double in, out;
@@ -232,20 +225,18 @@ static void test_order(void **state)
 {
     scene *s = NULL;
     scene_view view;
-    scene_gbuffer_request request;
     (void)state;
     assert_int_equal(scene_builtin("courtyard", &s, NULL), 0);
     scene_frame(s, 0.7f, 16.0f / 9.0f, &view);
-    request = request_of(&view, 160, 90);
+    scene_gbuffer_request request = request_of(&view, 160, 90);
     request.layers = 4;
     for (int kind = 0; kind < 2; kind++) {
-        scene_gbuffer g;
-        request.layer_kind = (scene_layers)kind;
-        g = render(s, &request);
+        request.layer_kind = (crv_layers)kind;
+        scene_gbuffer g = render(s, &request);
         for (int32_t pixel = 0; pixel < 160 * 90; pixel++)
             for (int layer = 1; layer < 4; layer++) {
                 float front = g.depth[layer - 1][pixel], here = g.depth[layer][pixel];
-                bool touching = kind == SCENE_LAYERS_BACK && here == front;
+                bool touching = kind == CRV_LAYERS_SOLID && here == front;
                 assert_true(here > front || touching || (isinf(here) && isinf(front)));
             }
         scene_gbuffer_free(&g);

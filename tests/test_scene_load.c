@@ -27,19 +27,17 @@ typedef struct probe {
     double normal[3], albedo[3], depth[2];
 } probe;
 
-static probe look_down(const scene *s, double x, double z, scene_layers kind)
+static probe look_down(const scene *s, double x, double z, crv_layers kind)
 {
     const double eye[3] = {x, 50, z}, target[3] = {x, 0, z};
     scene_view view = look(CRV_ORTHOGRAPHIC, eye, target, 1e-3);
-    scene_gbuffer_request request;
-    scene_gbuffer g;
     probe p;
     view.up[1] = 0.0f;
     view.up[2] = -1.0f;
-    request = request_of(&view, 1, 1);
+    scene_gbuffer_request request = request_of(&view, 1, 1);
     request.layers = 2;
     request.layer_kind = kind;
-    g = render(s, &request);
+    scene_gbuffer g = render(s, &request);
     to_world(&g, g.normals, p.normal);
     for (int i = 0; i < 3; i++)
         p.albedo[i] = (double)g.albedo[i];
@@ -61,7 +59,7 @@ static void test_obj(void **state)
 {
     static const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
     scene *s = load_text("cube.obj", cube_obj);
-    probe p = look_down(s, 0.3, 0.1, SCENE_LAYERS_NEXT);
+    probe p = look_down(s, 0.3, 0.1, CRV_LAYERS_SURFACES);
     (void)state;
     assert_int_equal(scene_triangle_count(s), 12);
     assert_bounds(s, lower, upper);
@@ -77,12 +75,11 @@ static void test_material(void **state)
     static const double expected[3] = {0.125, 0.5, 0.75};
     char text[1024];
     scene *s;
-    probe p;
     (void)state;
     write_text("paint.mtl", "newmtl paint\nKd 0.125 0.5 0.75\n");
     snprintf(text, sizeof text, "mtllib paint.mtl\nusemtl paint\n%s", cube_obj);
     s = load_text("painted.obj", text);
-    p = look_down(s, 0.3, 0.1, SCENE_LAYERS_NEXT);
+    probe p = look_down(s, 0.3, 0.1, CRV_LAYERS_SURFACES);
     for (int i = 0; i < 3; i++)
         assert_true(fabs(p.albedo[i] - expected[i]) < 1e-6);
     scene_free(s);
@@ -231,7 +228,7 @@ static void test_instances(void **state)
     /* Fronts face outwards, the mirrored one's too: below the side that is seen there is
      * one back face, the base. */
     for (int i = 0; i < 3; i++) {
-        probe p = look_down(s, x[i] + 0.05, -0.2, SCENE_LAYERS_BACK);
+        probe p = look_down(s, x[i] + 0.05, -0.2, CRV_LAYERS_SOLID);
         assert_true(p.depth[0] < 49.5);
         assert_true(fabs(p.depth[1] - 50.0) < 1e-5);
     }
@@ -256,11 +253,10 @@ static void test_normals_are_transformed(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char node[100];
         scene *s;
-        probe p;
         double sign = cases[i].normal[1] < 0.0 ? -1.0 : 1.0; /* turned to the viewer */
         snprintf(node, sizeof node, "{\"mesh\":0,\"scale\":[%s]}", cases[i].scale);
         s = load_clean(write_gltf("slope.gltf", slope, normals, 1, node, "0"));
-        p = look_down(s, 0.01, 0.02, SCENE_LAYERS_NEXT);
+        probe p = look_down(s, 0.01, 0.02, CRV_LAYERS_SURFACES);
         assert_normal(&p, sign * cases[i].normal[0], sign * cases[i].normal[1], 0);
         scene_free(s);
     }
@@ -274,7 +270,7 @@ static void test_useless_normals_become_the_face(void **state)
     for (int i = 0; i < 2; i++) {
         scene *s = load_clean(
             write_gltf("useless.gltf", flat, normals[i], 1, "{\"mesh\":0}", "0"));
-        probe p = look_down(s, 0.01, 0.02, SCENE_LAYERS_NEXT);
+        probe p = look_down(s, 0.01, 0.02, CRV_LAYERS_SURFACES);
         assert_normal(&p, 0, 1, 0);
         scene_free(s);
     }

@@ -82,9 +82,8 @@ static void test_back_of_plane_is_turned(void **state)
     (void)state;
     for (int kind = 0; kind < 2; kind++) {
         double n[3];
-        scene_gbuffer g;
         request.normals = (scene_normals)kind;
-        g = render(s, &request);
+        scene_gbuffer g = render(s, &request);
         to_world(&g, g.normals + 3 * 12, n);
         assert_true(n[1] < -0.999999);
         scene_gbuffer_free(&g);
@@ -105,24 +104,23 @@ static void test_sphere(void **state)
 {
     scene *s = NULL;
     scene_view view;
-    scene_gbuffer_request request;
-    scene_gbuffer g;
     int hits = 0;
     (void)state;
     assert_int_equal(scene_builtin("sphere", &s, NULL), 0);
     scene_frame(s, 0.7f, (float)WIDTH / HEIGHT, &view);
-    request = request_of(&view, WIDTH, HEIGHT);
-    g = render(s, &request);
+    scene_gbuffer_request request = request_of(&view, WIDTH, HEIGHT);
+    scene_gbuffer g = render(s, &request);
     for (int32_t y = 0; y < HEIGHT; y++)
         for (int32_t x = 0; x < WIDTH; x++) {
             int32_t pixel = y * WIDTH + x;
             ray r = ray_of_pixel(&g, x, y);
-            double depth = sphere_depth(&r), n[3], expected[3], facing;
+            double depth = sphere_depth(&r), n[3], expected[3];
             if (depth < 0.0)
                 continue;
             for (int i = 0; i < 3; i++)
                 expected[i] = r.origin[i] + depth * r.direction[i] - (i == 1 ? 1.0 : 0.0);
-            facing = -dot(expected, r.direction) / sqrt(dot(r.direction, r.direction));
+            const double facing =
+                -dot(expected, r.direction) / sqrt(dot(r.direction, r.direction));
             if (facing < 0.3)
                 continue;
             hits++;
@@ -144,13 +142,11 @@ static void test_corner(void **state)
     static const double floor_normal[3] = {0, 1, 0}, wall_normal[3] = {1, 0, 0};
     scene *s = NULL;
     scene_view view;
-    scene_gbuffer_request request;
-    scene_gbuffer g;
     (void)state;
     assert_int_equal(scene_builtin("corner", &s, NULL), 0);
     scene_frame(s, 0.785f, (float)WIDTH / HEIGHT, &view);
-    request = request_of(&view, WIDTH, HEIGHT);
-    g = render(s, &request);
+    scene_gbuffer_request request = request_of(&view, WIDTH, HEIGHT);
+    scene_gbuffer g = render(s, &request);
     for (int32_t y = 0; y < HEIGHT; y++)
         for (int32_t x = 0; x < WIDTH; x++) {
             int32_t pixel = y * WIDTH + x;
@@ -178,14 +174,12 @@ static void test_groove(void **state)
     const double half = sqrt(0.5);
     scene *s = NULL;
     scene_view view;
-    scene_gbuffer_request request;
-    scene_gbuffer g;
     (void)state;
     assert_int_equal(scene_builtin("groove", &s, NULL), 0);
     scene_frame(s, 0.7f, 16.0f / 9.0f, &view);
     assert_int_equal(view.projection, CRV_ORTHOGRAPHIC);
-    request = request_of(&view, 160, 90);
-    g = render(s, &request);
+    scene_gbuffer_request request = request_of(&view, 160, 90);
+    scene_gbuffer g = render(s, &request);
     for (int32_t y = 0; y < 90; y++)
         for (int32_t x = 0; x < 160; x++) {
             int32_t pixel = y * 160 + x;

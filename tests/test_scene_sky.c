@@ -15,7 +15,6 @@ static void get_direction(int i, double d[3])
     static const double special[10][3] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0},
                                           {0, 0, 1}, {0, 0, -1}, {1, 1, 0}, {0, 1, 1},
                                           {1, 0, 1}, {-1, 1, -1}};
-    double length;
     if (i < 10) {
         memcpy(d, special[i], sizeof special[i]);
     } else {
@@ -23,7 +22,7 @@ static void get_direction(int i, double d[3])
         d[2] = sin(2.4 * i);
         d[1] = 3.0 * (2.0 * (i - 9.5) / (DIRECTIONS - 10) - 1.0);
     }
-    length = sqrt(dot(d, d));
+    const double length = sqrt(dot(d, d));
     for (int k = 0; k < 3; k++)
         d[k] /= length;
 }
@@ -172,11 +171,11 @@ static void test_cosine_lobe(void **state)
         assert_int_equal(
             scene_sky_from_equirect(picture, SKY_WIDTH, SKY_HEIGHT, "lobe", &l, NULL), 0);
         for (int i = 0; i < DIRECTIONS; i++) {
-            double n[3], rgb[3], c, angle, bands;
+            double n[3], rgb[3];
             get_direction(i, n);
-            c = fmin(fmax(dot(n, axis), -1.0), 1.0);
-            angle = acos(c);
-            bands = PI / 4 + PI / 3 * c + 5 * PI / 128 * (3 * c * c - 1);
+            const double c = fmin(fmax(dot(n, axis), -1.0), 1.0);
+            const double angle = acos(c);
+            const double bands = PI / 4 + PI / 3 * c + 5 * PI / 128 * (3 * c * c - 1);
             evaluate(scene_sky_irradiance, &l, n, rgb);
             /* Pixels 1.4 degrees wide stand for their centres. */
             assert_near(rgb[0], fmax(bands, 0.0), 2e-3);

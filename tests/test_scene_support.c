@@ -50,9 +50,8 @@ const char *test_folder(void)
 const char *write_file(const char *name, const void *data, size_t size)
 {
     static char path[256];
-    FILE *file;
     snprintf(path, sizeof path, "%s/%s", test_folder(), name);
-    file = fopen(path, "wb");
+    FILE *file = fopen(path, "wb");
     assert_non_null(file);
     assert_int_equal(fwrite(data, 1, size, file), size);
     assert_int_equal(fclose(file), 0);
@@ -126,22 +125,21 @@ double dot(const double a[3], const double b[3])
 
 static void cross_unit(const double a[3], const double b[3], double out[3])
 {
-    double length;
     for (int i = 0; i < 3; i++)
         out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-    length = sqrt(dot(out, out));
+    const double length = sqrt(dot(out, out));
     for (int i = 0; i < 3; i++)
         out[i] /= length;
 }
 
 static void axes_of(const scene_view *v, double right[3], double up[3], double back[3])
 {
-    double given[3], length;
+    double given[3];
     for (int i = 0; i < 3; i++) {
         back[i] = (double)v->eye[i] - (double)v->target[i];
         given[i] = (double)v->up[i];
     }
-    length = sqrt(dot(back, back));
+    const double length = sqrt(dot(back, back));
     for (int i = 0; i < 3; i++)
         back[i] /= length;
     cross_unit(given, back, right);

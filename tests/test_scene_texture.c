@@ -82,7 +82,6 @@ static void test_obj(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof floor_maps / sizeof *floor_maps; i++) {
         char text[1024] = "";
-        scene *s;
         for (int c = 0; c < 4; c++) {
             double uv[2];
             map_point(&floor_maps[i], corner[c][0], corner[c][1], uv);
@@ -91,7 +90,7 @@ static void test_obj(void **state)
                      1.0 - uv[1]);
         }
         strcat(text, "f 1/1 2/2 3/3 4/4\n");
-        s = load_text("floor.obj", text);
+        scene *s = load_text("floor.obj", text);
         for (int projection = 0; projection < 2; projection++) {
             scene_gbuffer g =
                 look_at_plane(s, projection ? CRV_ORTHOGRAPHIC : CRV_PERSPECTIVE);
@@ -113,7 +112,6 @@ static void test_gltf(void **state)
     for (int mirrored = 0; mirrored < 2; mirrored++) {
         char text[2048];
         scene *s;
-        scene_gbuffer g;
         write_file("floor.bin", data, sizeof data);
         snprintf(
             text, sizeof text,
@@ -128,7 +126,7 @@ static void test_gltf(void **state)
             "\"buffers\":[{\"byteLength\":60,\"uri\":\"floor.bin\"}]}",
             scales[mirrored]);
         s = load_text("floor.gltf", text);
-        g = look_at_plane(s, CRV_PERSPECTIVE);
+        scene_gbuffer g = look_at_plane(s, CRV_PERSPECTIVE);
         assert_floor(&g, &floor_maps[mirrored ? 2 : 0]);
         scene_gbuffer_free(&g);
         scene_free(s);
@@ -144,12 +142,10 @@ static void test_none(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof faces / sizeof *faces; i++) {
         char text[256] = "v -2 0 2\nv 2 0 2\nv 0 0 -3\n";
-        scene *s;
-        scene_gbuffer g;
         int seen = 0;
         strcat(text, faces[i]);
-        s = load_text("none.obj", text);
-        g = look_at_plane(s, CRV_PERSPECTIVE);
+        scene *s = load_text("none.obj", text);
+        scene_gbuffer g = look_at_plane(s, CRV_PERSPECTIVE);
         for (int pixel = 0; pixel < PIXELS; pixel++) {
             seen += isfinite(g.depth[0][pixel]) != 0;
             assert_true(isnan(g.uv[2 * pixel]) && isnan(g.uv[2 * pixel + 1]));
@@ -168,13 +164,11 @@ static void test_only_on_request(void **state)
 {
     scene *s = NULL;
     scene_view view;
-    scene_gbuffer_request request;
-    scene_gbuffer g;
     (void)state;
     assert_int_equal(scene_builtin("plane", &s, NULL), 0);
     scene_frame(s, 0.8f, 1.5f, &view);
-    request = request_of(&view, WIDTH, HEIGHT);
-    g = render(s, &request);
+    scene_gbuffer_request request = request_of(&view, WIDTH, HEIGHT);
+    scene_gbuffer g = render(s, &request);
     assert_null(g.uv);
     assert_null(g.tangent);
     assert_null(g.bitangent);
@@ -207,14 +201,14 @@ static void test_corner(void **state)
     (void)state;
     for (int pixel = 0; pixel < PIXELS; pixel++) {
         ray r = ray_of_pixel(&g, pixel % WIDTH, pixel / WIDTH);
-        double p[3], n[3], t = (double)g.depth[0][pixel], u, v;
+        double p[3], n[3], t = (double)g.depth[0][pixel];
         if (isinf(g.depth[0][pixel]))
             continue;
         for (int i = 0; i < 3; i++)
             p[i] = r.origin[i] + t * r.direction[i];
         to_world(&g, g.normals + 3 * pixel, n);
-        u = n[1] > 0.5 ? p[0] / 2 : -p[2] / 2;
-        v = n[1] > 0.5 ? p[2] / 2 : -p[1] / 2;
+        const double u = n[1] > 0.5 ? p[0] / 2 : -p[2] / 2;
+        const double v = n[1] > 0.5 ? p[2] / 2 : -p[1] / 2;
         floor += n[1] > 0.5;
         wall += n[0] > 0.5;
         assert_true(fabs((double)g.uv[2 * pixel] - u) < 5 * TOLERANCE);
@@ -235,14 +229,14 @@ static void test_sphere(void **state)
     int seen = 0;
     (void)state;
     for (int pixel = 0; pixel < PIXELS; pixel++) {
-        double n[3], t[3], b[3], across, u, v;
+        double n[3], t[3], b[3];
         to_world(&g, g.normals + 3 * pixel, n);
-        across = sqrt(n[0] * n[0] + n[2] * n[2]);
+        const double across = sqrt(n[0] * n[0] + n[2] * n[2]);
         if (isinf(g.depth[0][pixel]) || fabs(n[1]) > 0.9)
             continue;
         seen++;
-        u = atan2(-n[2], n[0]) / (2 * PI);
-        v = acos(n[1]) / PI;
+        double u = atan2(-n[2], n[0]) / (2 * PI);
+        const double v = acos(n[1]) / PI;
         u -= floor(u - (double)g.uv[2 * pixel] + 0.5);
         assert_true(fabs((double)g.uv[2 * pixel] - u) < 1e-4);
         assert_true(fabs((double)g.uv[2 * pixel + 1] - v) < 1e-4);

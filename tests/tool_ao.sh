@@ -5,7 +5,7 @@
 size="--size 240x135"
 
 # A G-buffer on disk holds all that render needs: camera, guard band, layers, normals.
-for extra in "" "--layers 2" "--layers 3 --layer-kind back" "--normals-from face --guard-px 0"; do
+for extra in "" "--layers 2" "--layers 3 --layer-kind solid" "--normals-from face --guard-px 0"; do
     # shellcheck disable=SC2086
     good render builtin:courtyard $size $extra -o direct.exr --radius 0.4
     # shellcheck disable=SC2086
@@ -20,7 +20,7 @@ for extra in "" "--layers 2" "--layers 3 --layer-kind back" "--normals-from face
 done
 
 # What layers mean is in the file, and --layer-kind says otherwise.
-for kind in back next; do
+for kind in solid surfaces; do
     # shellcheck disable=SC2086
     good gbuffer builtin:courtyard $size --layers 2 --layer-kind $kind -o $kind.exr
     good ao $kind.exr -o $kind.found.exr --method vao --radius 0.4
@@ -30,10 +30,10 @@ for kind in back next; do
     good compare --json $kind.solid.exr $kind.surfaces.exr
     at_least "$(number rmse)" 0.001 "surfaces and solids differ"
 done
-good compare --json back.found.exr back.solid.exr
-at_most "$(number max_error)" 0 "back faces are found to be solid"
-good compare --json next.found.exr next.surfaces.exr
-at_most "$(number max_error)" 0 "next surfaces are found to be surfaces"
+good compare --json solid.found.exr solid.solid.exr
+at_most "$(number max_error)" 0 "solids are found to be solids"
+good compare --json surfaces.found.exr surfaces.surfaces.exr
+at_most "$(number max_error)" 0 "surfaces are found to be surfaces"
 good gbuffer builtin:groove $size -o groove.exr
 good ao groove.exr -o groove_ao.exr --radius 0.4
 good render builtin:groove $size -o groove_direct.exr --radius 0.4

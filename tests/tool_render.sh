@@ -53,7 +53,7 @@ good render builtin:sphere $small -o out1.png --target 0,0,0 --up 0,0,1
 good render builtin:sphere $small -o out2.png --eye 0,9,0 --target 0,0,0
 good render builtin:sphere $small -o out3.png --ortho 5 --bits 16
 good render builtin:sphere $small -o out4.exr --vfov 20 --half
-good render builtin:sphere --size 33x21 -o out5.pfm --layers 4 --layer-kind back
+good render builtin:sphere --size 33x21 -o out5.pfm --layers 4 --layer-kind solid
 good render builtin:sphere --size 1x1 -o out6.png --guard-px 0 --normals-from face
 [ -s "s p ä.png" ] || fail "a name with spaces"
 

@@ -11,11 +11,10 @@
 bool args_number(const char *text, double *out)
 {
     char *end = NULL;
-    double value;
 
     if (text[0] == '\0' || isspace((unsigned char)text[0]))
         return false;
-    value = strtod(text, &end);
+    const double value = strtod(text, &end);
     if (end == text || *end != '\0' || isnan(value))
         return false;
     *out = value;
@@ -55,15 +54,15 @@ static bool set_vector(const char *text, arg_vector *out)
         char *comma = strchr(part, ',');
         double value;
 
-        if ((comma == NULL) != (i == 2))
+        if ((!comma) != (i == 2))
             return false;
-        if (comma != NULL)
+        if (comma)
             *comma = '\0';
         /* Squares of coordinates must stay finite in single precision. */
         if (!args_number(part, &value) || !(fabs(value) < 1e18))
             return false;
         out->value[i] = (float)value;
-        if (comma != NULL)
+        if (comma)
             part = comma + 1;
     }
     return true;
@@ -96,7 +95,7 @@ static bool set_size(const char *text, arg_size *out)
 
 static bool set_choice(const arg *row, const char *text, arg_int *out)
 {
-    for (int32_t i = 0; row->choices[i] != NULL; i++) {
+    for (int32_t i = 0; row->choices[i]; i++) {
         if (strcmp(text, row->choices[i]) == 0) {
             out->value = i;
             return true;
@@ -144,15 +143,15 @@ static void describe_choices(const arg *row, char *out, size_t size)
 {
     size_t used = 0;
 
-    for (int32_t i = 0; row->choices[i] != NULL && used < size; i++)
+    for (int32_t i = 0; row->choices[i] && used < size; i++)
         used += (size_t)snprintf(out + used, size - used, "%s%s", i == 0 ? "" : "|",
                                  row->choices[i]);
 }
 
 void args_describe_values(const arg *row, char *out, size_t size)
 {
-    const char *space = row->unit != NULL ? " " : "";
-    const char *unit = row->unit != NULL ? row->unit : "";
+    const char *space = row->unit ? " " : "";
+    const char *unit = row->unit ? row->unit : "";
 
     out[0] = '\0';
     switch (row->type) {

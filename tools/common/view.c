@@ -6,7 +6,8 @@
 
 static const double degree = 3.14159265358979323846 / 180.0;
 
-static const char *const layer_kinds[] = {"next", "back", NULL};
+/* In the order of crv_layers. */
+static const char *const layer_kinds[] = {"surfaces", "solid", NULL};
 static const char *const normal_kinds[] = {"interpolated", "face", NULL};
 
 static const arg camera_rows[] = {
@@ -69,11 +70,11 @@ static const arg buffer_rows[] = {
     {.name = "--layer-kind",
      .value = "KIND",
      .type = ARG_CHOICE,
-     .initial = "next",
+     .initial = "surfaces",
      .choices = layer_kinds,
      .offset = offsetof(view_settings, layer_kind),
-     .help = "next: each further layer is the next surface; back: they alternate between "
-             "the backs and fronts of solids, which occlude in between only"},
+     .help = "surfaces: each further layer is the next surface; solid: layers alternate "
+             "between fronts and backs of solids, which occlude in between only"},
     {.name = "--normals-from",
      .value = "KIND",
      .type = ARG_CHOICE,
@@ -108,18 +109,17 @@ static int check_builtin(const char *name, report *r)
 {
     const char *names[64];
     int32_t count = 0;
-    const char *nearest;
 
-    for (; count < 64 && scene_builtin_name(count) != NULL; count++) {
+    for (; count < 64 && scene_builtin_name(count); count++) {
         names[count] = scene_builtin_name(count);
         if (strcmp(names[count], name) == 0)
             return EXIT_DONE;
     }
-    nearest = crv_nearest_name(name, names, count);
-    if (nearest == NULL && count > 0)
+    const char *nearest = crv_nearest_name(name, names, count);
+    if (!nearest && count > 0)
         nearest = names[0];
     report_error(r, "builtin:%s: no such scene; did you mean builtin:%s?", name,
-                 nearest != NULL ? nearest : "");
+                 nearest ? nearest : "");
     return EXIT_USAGE;
 }
 
@@ -145,16 +145,15 @@ int view_check(const view_settings *s, report *r)
         report_error(r, "--up: has no length; give a direction such as 0,1,0");
         return EXIT_USAGE;
     }
-    return builtin_name(s->model) != NULL ? check_builtin(builtin_name(s->model), r)
-                                          : EXIT_DONE;
+    return builtin_name(s->model) ? check_builtin(builtin_name(s->model), r) : EXIT_DONE;
 }
 
 int view_load(const view_settings *s, scene **out, report *r)
 {
     const char *name = builtin_name(s->model);
     double start = report_seconds();
-    int result = name != NULL ? scene_builtin(name, out, &r->logger)
-                              : scene_load(s->model, out, &r->logger);
+    int result = name ? scene_builtin(name, out, &r->logger)
+                      : scene_load(s->model, out, &r->logger);
 
     if (result != 0)
         return EXIT_FAILED;
@@ -257,7 +256,7 @@ int view_render(const view_settings *s, const scene *model, bool texture_frames,
         .height = s->size.height,
         .guard_px = guard_px(s),
         .layers = s->layers.value,
-        .layer_kind = s->layer_kind.value == 0 ? SCENE_LAYERS_NEXT : SCENE_LAYERS_BACK,
+        .layer_kind = (crv_layers)s->layer_kind.value,
         .normals =
             s->normals_from.value == 0 ? SCENE_NORMALS_INTERPOLATED : SCENE_NORMALS_FACE,
         .threads = s->common.threads.value,

@@ -234,7 +234,7 @@ static int copy_normals(const scene_gbuffer *g, const char *const names[3],
     size_t count = (size_t)g->desc.width * (size_t)g->desc.height;
     float *block = malloc(3 * count * sizeof *block);
 
-    if (block == NULL)
+    if (!block)
         return report_no_memory(r);
     gbuffer_world_normals(g, (float *const[]){block, block + count, block + 2 * count});
     for (size_t k = 0; k < 3; k++)
@@ -249,7 +249,6 @@ static int write_result(const reference_settings *s, const reference *work,
     static const char *const names[] = {"AO", "AO.stderr", "N.X", "N.Y", "N.Z", "Z"};
     size_t size = (size_t)reference_total(work) * sizeof(float);
     io_image image = {0};
-    int result;
 
     if (io_image_init(&image, s->view.size.width, s->view.size.height, names, 6,
                       &r->logger)
@@ -258,7 +257,7 @@ static int write_result(const reference_settings *s, const reference *work,
     memcpy(image.channels[0].data, reference_accessibility(work), size);
     memcpy(image.channels[1].data, reference_error(work), size);
     copy_inside(g, g->depth[0], &image, "Z");
-    result = copy_normals(g, names + 2, &image, r);
+    int result = copy_normals(g, names + 2, &image, r);
     gbuffer_describe_camera(g, &image);
     if (result == EXIT_DONE)
         result = output_write(s->view.output, &image, NULL, r);
@@ -271,12 +270,11 @@ static int trace(const reference_settings *s, const scene *model, const scene_gb
 {
     reference_options o = options_of(s, model, g, r);
     double start = report_seconds();
-    int result;
 
     if (reference_create(model, g, &o, &run->work, &r->logger) != 0)
         return EXIT_FAILED;
-    result = reference_run_all(run, s->view.output, s->resume,
-                               s->view.common.threads.value, r);
+    int result = reference_run_all(run, s->view.output, s->resume,
+                                   s->view.common.threads.value, r);
     if (result != EXIT_DONE)
         return result;
     report_info(r, "reference, radius %g, up to %d rays: %.2f s", (double)o.radius,

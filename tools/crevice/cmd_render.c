@@ -79,10 +79,10 @@ static int check(const render_settings *s, report *r)
     if (result == EXIT_DONE)
         result = lighting_check(s, r);
     for (int i = 0; i < 3 && result == EXIT_DONE; i++) {
-        if (paths[i] == NULL)
+        if (!paths[i])
             continue;
         for (int j = 0; j < i && result == EXIT_DONE; j++) {
-            if (paths[j] != NULL && output_same(paths[i], paths[j])) {
+            if (paths[j] && output_same(paths[i], paths[j])) {
                 report_error(r, "%s: is named for two pictures; choose another name",
                              paths[i]);
                 result = EXIT_USAGE;
@@ -103,14 +103,13 @@ static int estimate(const render_settings *s, const scene *model, const scene_gb
 {
     crv_options options = s->view.common.options;
     estimator e;
-    int result;
 
     if (!s->view.common.radius_given) {
         options.radius = scene_suggest_radius(model, &g->view);
         report_info(r, "radius: --radius %g, chosen to suit the view",
                     (double)options.radius);
     }
-    result = estimate_open(&e, &s->view.common, r);
+    int result = estimate_open(&e, &s->view.common, r);
     if (result == EXIT_DONE) {
         estimate_fit(&e, &g->desc);
         if (!report_ok(r, scene_gbuffer_upload(g, e.context, &e.gbuffer), "G-buffer"))
@@ -155,12 +154,12 @@ static int write_lit(const render_settings *s, const char *path, const stage *li
     io_image image = {0};
     int result = EXIT_FAILED;
 
-    if (pixels == NULL)
+    if (!pixels)
         return report_no_memory(r);
-    if (ao != NULL)
+    if (ao)
         access = crv_image_packed(ao->channels[0].data, width, height, 1);
-    if (scene_shade(lit->model, lit->buffers, lit->light, ao != NULL ? &access : NULL,
-                    &rgb, s->view.common.threads.value, &r->logger)
+    if (scene_shade(lit->model, lit->buffers, lit->light, ao ? &access : NULL, &rgb,
+                    s->view.common.threads.value, &r->logger)
             == 0
         && io_image_init(&image, width, height, names, 3, &r->logger) == 0) {
         for (size_t i = 0; i < count; i++)
@@ -183,9 +182,9 @@ static int write_all(const render_settings *s, const stage *lit, const io_image 
         result = write_image(s, output, ao, false, r);
     else
         result = write_lit(s, output, lit, s->shade.value == SHADE_LIT ? ao : NULL, r);
-    if (result == EXIT_DONE && s->lit != NULL)
+    if (result == EXIT_DONE && s->lit)
         result = write_lit(s, s->lit, lit, ao, r);
-    if (result == EXIT_DONE && s->unlit != NULL)
+    if (result == EXIT_DONE && s->unlit)
         result = write_lit(s, s->unlit, lit, NULL, r);
     return result;
 }
@@ -210,7 +209,7 @@ static void free_work(work *w)
 static int run(const void *settings, report *r)
 {
     const render_settings *s = settings;
-    bool needs_ao = s->shade.value != SHADE_LIT_NO_AO || s->lit != NULL;
+    bool needs_ao = s->shade.value != SHADE_LIT_NO_AO || s->lit;
     work w = {0};
     stage lit;
     int result = check(s, r);
@@ -222,7 +221,7 @@ static int run(const void *settings, report *r)
     if (result == EXIT_DONE)
         result = view_load(&s->view, &w.model, r);
     if (result == EXIT_DONE)
-        result = view_render(&s->view, w.model, s->height_map != NULL, &w.buffers, r);
+        result = view_render(&s->view, w.model, s->height_map, &w.buffers, r);
     if (result == EXIT_DONE)
         result = relief_check_mesh(s, &w.buffers, r);
     if (result == EXIT_DONE && needs_ao)

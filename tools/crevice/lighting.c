@@ -43,15 +43,15 @@ static int numbers(const char *text, double *out, int max)
     if (strlen(text) >= sizeof copy)
         return -1;
     memcpy(copy, text, strlen(text) + 1);
-    while (part != NULL) {
+    while (part) {
         char *comma = strchr(part, ',');
 
-        if (comma != NULL)
+        if (comma)
             *comma = '\0';
         if (count == max || !args_number(part, &out[count]) || !isfinite(out[count]))
             return -1;
         count++;
-        part = comma != NULL ? comma + 1 : NULL;
+        part = comma ? comma + 1 : NULL;
     }
     return count;
 }
@@ -59,14 +59,12 @@ static int numbers(const char *text, double *out, int max)
 static int set_key_light(const char *text, scene_lighting *l, report *r)
 {
     double value[3] = {0.0, 0.0, 1.0};
-    double azimuth, elevation;
-    int count;
 
     if (strcmp(text, "none") == 0) {
         memset(l->key_colour, 0, sizeof l->key_colour);
         return EXIT_DONE;
     }
-    count = numbers(text, value, 3);
+    const int count = numbers(text, value, 3);
     if (count < 2 || fabs(value[0]) > 360.0 || fabs(value[1]) > 90.0 || value[2] < 0.0
         || value[2] > 1e6) {
         report_error(r,
@@ -75,8 +73,8 @@ static int set_key_light(const char *text, scene_lighting *l, report *r)
                      text);
         return EXIT_USAGE;
     }
-    azimuth = value[0] * degree;
-    elevation = value[1] * degree;
+    const double azimuth = value[0] * degree;
+    const double elevation = value[1] * degree;
     l->key_direction[0] = (float)(cos(elevation) * sin(azimuth));
     l->key_direction[1] = (float)sin(elevation);
     l->key_direction[2] = (float)(-cos(elevation) * cos(azimuth));
@@ -110,14 +108,13 @@ static int load_picture(const char *path, lighting *l, report *r)
 {
     static const char *const names[] = {"R", "G", "B"};
     io_image image = {0};
-    size_t count;
     int result = EXIT_FAILED;
 
     if (io_read(path, names, 3, &image, &r->logger) != 0)
         return EXIT_FAILED;
-    count = (size_t)image.width * (size_t)image.height;
+    const size_t count = (size_t)image.width * (size_t)image.height;
     l->picture = malloc(count * 3 * sizeof *l->picture);
-    if (l->picture == NULL) {
+    if (!l->picture) {
         report_no_memory(r);
     } else {
         for (size_t i = 0; i < count; i++)
@@ -145,7 +142,6 @@ static bool is_picture(const char *text)
 static int set_sky(const char *text, lighting *l, report *r)
 {
     static const char *const kinds[] = {"painted", "constant", "gradient", NULL};
-    const char *nearest;
 
     if (strncmp(text, "constant", 8) == 0 && (text[8] == '\0' || text[8] == ':'))
         return set_constant(text + 8, &l->scene, r);
@@ -155,8 +151,8 @@ static int set_sky(const char *text, lighting *l, report *r)
     }
     if (is_picture(text))
         return load_picture(text, l, r);
-    nearest = crv_nearest_name(text, kinds, -1);
-    if (nearest != NULL)
+    const char *nearest = crv_nearest_name(text, kinds, -1);
+    if (nearest)
         report_error(r, "--sky: no sky \"%s\"; did you mean %s?", text, nearest);
     else
         report_error(r,
@@ -195,13 +191,12 @@ static void turn(scene_lighting *l, const float up[3])
 int lighting_check(const render_settings *s, report *r)
 {
     const float *zenith = s->zenith.value;
-    const char *given = s->sky != NULL         ? "--sky"
-                        : s->key_light != NULL ? "--key-light"
-                        : s->zenith.given      ? "--zenith"
-                                               : NULL;
+    const char *given = s->sky            ? "--sky"
+                        : s->key_light    ? "--key-light"
+                        : s->zenith.given ? "--zenith"
+                                          : NULL;
 
-    if (given != NULL && s->shade.value == SHADE_AO && s->lit == NULL
-        && s->unlit == NULL) {
+    if (given && s->shade.value == SHADE_AO && !s->lit && !s->unlit) {
         report_error(r, "%s: lights no picture; add --lit FILE or --shade lit", given);
         return EXIT_USAGE;
     }
@@ -219,12 +214,12 @@ int lighting_load(const render_settings *s, lighting *out, report *r)
     int result = EXIT_DONE;
 
     *out = (lighting){.scene = scene_lighting_default()};
-    if (s->key_light != NULL)
+    if (s->key_light)
         result = set_key_light(s->key_light, &out->scene, r);
     turn(&out->scene, s->zenith.given    ? s->zenith.value
                       : s->view.up.given ? s->view.up.value
                                          : usual);
-    if (result == EXIT_DONE && s->sky != NULL)
+    if (result == EXIT_DONE && s->sky)
         result = set_sky(s->sky, out, r);
     return result;
 }

@@ -52,7 +52,7 @@ int reference_run_check(reference_run *run, const char *output, bool resume, rep
     size_t length = strlen(output);
 
     run->checkpoint = malloc(length + sizeof extension);
-    if (run->checkpoint == NULL)
+    if (!run->checkpoint)
         return report_no_memory(r);
     memcpy(run->checkpoint, output, length);
     memcpy(run->checkpoint + length, extension, sizeof extension);
@@ -121,7 +121,6 @@ static void show_progress(progress *p, const reference *work, report *r)
     double now = report_seconds();
     int64_t done = reference_done(work), left = reference_total(work) - done;
     char time[64], line[128];
-    int width;
 
     if (r->quiet || (!p->terminal && !r->verbose) || done == p->from
         || (!p->terminal && now - p->told < LINE_SECONDS))
@@ -129,8 +128,9 @@ static void show_progress(progress *p, const reference *work, report *r)
     p->told = now;
     describe_time((now - p->start) * (double)left / (double)(done - p->from), time,
                   sizeof time);
-    width = snprintf(line, sizeof line, "reference: %5.1f %%, %s left",
-                     100.0 * (double)done / (double)reference_total(work), time);
+    const int width =
+        snprintf(line, sizeof line, "reference: %5.1f %%, %s left",
+                 100.0 * (double)done / (double)reference_total(work), time);
     if (p->terminal)
         fprintf(stderr, "\r%s%*s", line, p->width > width ? p->width - width : 0, "");
     else
@@ -164,11 +164,11 @@ static void compute(reference_run *run, int32_t threads, report *r)
 
     run->is_saved = true;
     while (reference_done(run->work) < reference_total(run->work) && stop_signal == 0) {
-        double start = report_seconds(), now;
+        double start = report_seconds();
 
         reference_advance(run->work, batch, threads);
         run->is_saved = false;
-        now = report_seconds();
+        const double now = report_seconds();
         if (now - start < 0.5 * BATCH_SECONDS)
             batch *= 2;
         else if (now - start > 2.0 * BATCH_SECONDS && batch > FIRST_BATCH)
@@ -186,13 +186,12 @@ int reference_run_all(reference_run *run, const char *output, bool resume,
                       int32_t threads, report *r)
 {
     struct sigaction former[STOP_COUNT];
-    int result, caught;
 
     hold_signals(former);
-    result = begin(run, output, resume, r);
+    const int result = begin(run, output, resume, r);
     if (result == EXIT_DONE)
         compute(run, threads, r);
-    caught = stop_signal;
+    int caught = stop_signal;
     if (result == EXIT_DONE && caught != 0 && !run->is_saved)
         save(run, r);
     release_signals(former);

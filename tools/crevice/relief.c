@@ -54,11 +54,11 @@ static int wrong_method(const crv_method *method, report *r)
 
 int relief_check(const render_settings *s, report *r)
 {
-    if (s->height_map != NULL && !reads_relief(s->view.common.options.method))
+    if (s->height_map && !reads_relief(s->view.common.options.method))
         return wrong_method(s->view.common.options.method, r);
-    if (s->height_map != NULL && s->height_scale.given)
+    if (s->height_map && s->height_scale.given)
         return EXIT_DONE;
-    if (s->height_map != NULL)
+    if (s->height_map)
         report_error(r, "--height-map: has no scale; add --height-scale, scene units for "
                         "a height of 1");
     else if (estimate_is_of_relief(&s->view.common.options))
@@ -79,16 +79,16 @@ int relief_load(const render_settings *s, io_image *map, report *r)
     const char *name = NULL;
     int result = EXIT_FAILED;
 
-    if (s->height_map == NULL)
+    if (!s->height_map)
         return EXIT_DONE;
     if (io_probe(s->height_map, &probed, &r->logger) != 0)
         return EXIT_FAILED;
     if (probed.channel_count == 1)
         name = probed.channels[0].name;
-    for (int i = 0; i < 2 && name == NULL; i++)
-        if (io_image_find(&probed, usual[i]) != NULL)
+    for (int i = 0; i < 2 && !name; i++)
+        if (io_image_find(&probed, usual[i]))
             name = usual[i];
-    if (name == NULL)
+    if (!name)
         report_error(r,
                      "%s: has several channels, none of them Y or R; write the height as "
                      "one channel",
@@ -106,7 +106,7 @@ int relief_check_mesh(const render_settings *s, const scene_gbuffer *g, report *
     size_t count = (size_t)g->desc.width * (size_t)g->desc.height;
     size_t surface = 0, bare = 0;
 
-    if (s->height_map == NULL)
+    if (!s->height_map)
         return EXIT_DONE;
     for (size_t i = 0; i < count; i++) {
         if (!isfinite(g->depth[0][i]))
@@ -133,11 +133,10 @@ int relief_apply(const render_settings *s, const io_image *map, const scene_gbuf
                  crv_gbuffer *gbuffer, report *r)
 {
     int32_t width = g->desc.width, height = g->desc.height;
-    crv_height_field field;
 
-    if (s->height_map == NULL)
+    if (!s->height_map)
         return EXIT_DONE;
-    field = (crv_height_field){
+    crv_height_field field = (crv_height_field){
         .uv = crv_image_packed(g->uv, width, height, 2),
         .tangent = crv_image_packed(g->tangent, width, height, 3),
         .bitangent = crv_image_packed(g->bitangent, width, height, 3),
@@ -153,12 +152,12 @@ int relief_apply(const render_settings *s, const io_image *map, const scene_gbuf
 static double texel(const io_image *map, double column, double row, bool clamp)
 {
     double width = map->width, height = map->height;
-    float value;
 
     column = clamp ? fmin(fmax(column, 0.0), width - 1.0)
                    : column - width * floor(column / width);
     row = clamp ? fmin(fmax(row, 0.0), height - 1.0) : row - height * floor(row / height);
-    value = map->channels[0].data[(size_t)row * (size_t)map->width + (size_t)column];
+    const float value =
+        map->channels[0].data[(size_t)row * (size_t)map->width + (size_t)column];
     return isfinite(value) ? (double)value : 0.0;
 }
 
@@ -205,7 +204,7 @@ void relief_bend_normals(const render_settings *s, const io_image *map, scene_gb
     size_t count = (size_t)g->desc.width * (size_t)g->desc.height;
     double scale = s->height_scale.value;
 
-    if (s->height_map == NULL)
+    if (!s->height_map)
         return;
     for (size_t i = 0; i < count; i++) {
         const float *uv = g->uv + 2 * i;

@@ -45,11 +45,11 @@ typedef struct layers {
 static study_buffers buffers_of(row what)
 {
     if (what == TWO_SURFACES)
-        return (study_buffers){2, SCENE_LAYERS_NEXT};
+        return (study_buffers){2, CRV_LAYERS_SURFACES};
     if (what == FRONT_AND_BACK)
-        return (study_buffers){2, SCENE_LAYERS_BACK};
+        return (study_buffers){2, CRV_LAYERS_SOLID};
     if (what == TWO_SOLIDS)
-        return (study_buffers){4, SCENE_LAYERS_BACK};
+        return (study_buffers){4, CRV_LAYERS_SOLID};
     return STUDY_ONE_LAYER;
 }
 

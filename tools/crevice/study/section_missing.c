@@ -46,7 +46,7 @@ static const subject SUBJECTS[] = {
 
 enum { SUBJECT_COUNT = sizeof SUBJECTS / sizeof SUBJECTS[0] };
 
-static const study_buffers TWO_LAYERS = {2, SCENE_LAYERS_NEXT};
+static const study_buffers TWO_LAYERS = {2, CRV_LAYERS_SURFACES};
 
 typedef struct parts {
     double one, two;      /* RMSE of the filtered picture against the whole scene */

@@ -31,10 +31,10 @@ typedef struct study_target {
 /* Which buffers an estimate sees. */
 typedef struct study_buffers {
     int32_t layers; /* 1 to CRV_MAX_LAYERS */
-    scene_layers kind;
+    crv_layers kind;
 } study_buffers;
 
-#define STUDY_ONE_LAYER ((study_buffers){1, SCENE_LAYERS_NEXT})
+#define STUDY_ONE_LAYER ((study_buffers){1, CRV_LAYERS_SURFACES})
 
 typedef struct study_view study_view;
 struct study_view {
