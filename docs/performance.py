@@ -360,8 +360,8 @@ def headlines(parts):
 
 GPU_NOT_MEASURED = """\
 Nothing here was measured on a GPU, only what two threads of a processor do; `crevice bench --device vulkan`
-gives the steps of every method there, with their share of the device's measured bandwidth, and
-[gpu.md](gpu.md) the floors that bytes and fetches set. `docs/performance_gpu.py` makes a page of a GPU.
+gives the steps of every method there, and [gpu.md](gpu.md) the bytes that they move.
+`docs/performance_gpu.py` makes a page of a GPU.
 """
 GPU_MEASURED = """\
 Nothing here was measured on a GPU, only what threads of a processor do;

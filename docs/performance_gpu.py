@@ -37,18 +37,11 @@ Made by `docs/performance_gpu.py CREVICE` on {date}, of `{command}`:
 
 Times are the device's own, of steps of a plan at `medium`, the median of the runs; copies between host and device
 are left out. A plan keeps normals and accessibility in 32 bits, where a pass in a host's command buffer has 16
-({gpu_md} counts its bytes). The floors are the bytes that a step must move at least over the rate at which the device
-copies an image, {bandwidth:.0f} GB/s, and its fetches over the fastest rate of sampled images below.
+({gpu_md} counts its bytes).
 
 ## What was wanted
 
 {aims}
-## Fetches
-
-Depths fetched, 10^9 a second, 64 for each pixel: in a row; in 8 directions of 8 steps up to 8 px and 64 px; the
-same in step, from depth taken apart. Methods fetch from the sampled image.
-
-{fetches}
 ## Estimates and filters
 
 {steps}
@@ -83,7 +76,7 @@ def measure(options, folder):
     views = ["--views", os.path.join(options.shared, "scenes", "cameras.json"), "--view",
              "sponza"] if options.shared else ["builtin:courtyard"]
     speed = ["--repeats", "1", "--seconds", "0"] if options.brief else ["--repeats", "25"]
-    arguments = views + ["--device", options.device, "--only", "fetches,device", "--sizes",
+    arguments = views + ["--device", options.device, "--only", "device", "--sizes",
                          options.size, "--filters", "none,bilateral13,box4,gauss5", "--layouts",
                          "all", "--arithmetic", "both", "--radii", "1,3"] + speed
     if options.brief:
@@ -93,13 +86,6 @@ def measure(options, folder):
                    stdout=subprocess.DEVNULL)
     with open(path, encoding="utf-8") as stream:
         return json.load(stream)
-
-
-def floors(row, report):
-    """ms that the step takes at least, by bytes and by fetches."""
-    best = max(v for r in report["device_fetches"] if r["path"] == "sampled image"
-               for k, v in r.items() if k != "path" and v)
-    return (row["bytes"] / report["device_bytes_per_s"] * 1e3, row["fetches"] / best * 1e3)
 
 
 def is_step(row):
@@ -118,14 +104,11 @@ def aims_table(report):
             if is_step(row) and case_of(row)[:3] == (method, "bilateral13", 1):
                 cases.setdefault(case_of(row), []).append(row)
         case, steps = min(cases.items(), key=lambda c: sum(r["ms"] for r in c[1]))
-        by_bytes, by_fetches = (sum(floors(r, report)[i] for r in steps) for i in (0, 1))
         ms = sum(r["ms"] for r in steps)
         size = f"{steps[0]['width']}x{steps[0]['height']}"
         rows.append([f"`{method}` and `bilateral13`, {size}, depth {case[3]}, {case[4]}",
-                     number(ms, 3), number(aim, 1), "yes" if ms < aim else "no",
-                     number(ms / by_bytes, 1), number(ms / by_fetches, 1)])
-    return table(["the fastest way", "ms", "aim at 3840x2160", "met",
-                  "times the floor of bytes", "of fetches"], rows)
+                     number(ms, 3), number(aim, 1), "yes" if ms < aim else "no"])
+    return table(["the fastest way", "ms", "aim at 3840x2160", "met"], rows)
 
 
 def steps_table(report):
@@ -140,22 +123,12 @@ def steps_table(report):
             continue  # it has none
         if not is_step(row) or first.setdefault(key, case_of(row)) != case_of(row):
             continue
-        by_bytes, by_fetches = floors(row, report)
         rows.append([f"`{row['step']}`" + ("" if is_filter else f" of `{method}`"
                                            if row["step"] != method else ""),
                      "-" if is_filter else number(radius, 0), "-" if is_filter else layout,
                      arithmetic if is_filter else "-", number(row["ms"], 3),
-                     number(row["mpixels_per_s"], 0), number(by_bytes, 3),
-                     number(by_fetches, 3)])
-    return table(["step", "radius", "depth", "filter in", "ms", "MPix/s", "floor of bytes, ms",
-                  "floor of fetches, ms"], rows)
-
-
-def fetches_table(report):
-    columns = ("row", "near", "disk", "in_step")
-    return table(["", "row", "8 px", "64 px", "64 px, in step"],
-                 [[r["path"]] + [number(r[c] / 1e9 if r[c] else None, 2) for c in columns]
-                  for r in report["device_fetches"]])
+                     number(row["mpixels_per_s"], 0)])
+    return table(["step", "radius", "depth", "filter in", "ms", "MPix/s"], rows)
 
 
 def write_page(report, options, device, tests):
@@ -164,9 +137,8 @@ def write_page(report, options, device, tests):
         command = command.replace(options.shared.rstrip("/"), "$CREVICE_SHARED")
     return PAGE.format(date=datetime.date.today().isoformat(), command=command, device=device,
                        version=report["version"], compiler=report["compiler"], tests=tests,
-                       gpu_md="[gpu.md](gpu.md)", bandwidth=report["device_bytes_per_s"] / 1e9,
-                       aims=aims_table(report), fetches=fetches_table(report),
-                       steps=steps_table(report))
+                       gpu_md="[gpu.md](gpu.md)",
+                       aims=aims_table(report), steps=steps_table(report))
 
 
 def refer():

@@ -303,19 +303,6 @@ static void nulls_are_refused(void **state)
     assert_int_equal(crv_context_create(&half, &context), CRV_ERROR_INVALID_ARGUMENT);
     assert_null(context);
     assert_int_equal(crv_context_create(NULL, &context), CRV_OK);
-    double bandwidth = 0;
-    assert_int_equal(crv_context_device_bandwidth(NULL, &bandwidth),
-                     CRV_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(crv_context_device_bandwidth(context, NULL),
-                     CRV_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(crv_context_device_bandwidth(context, &bandwidth),
-                     CRV_ERROR_UNSUPPORTED); /* the CPU */
-    double fetches[CRV_FETCH_PATHS][CRV_FETCH_PATTERNS];
-    assert_int_equal(crv_context_device_fetches(NULL, fetches),
-                     CRV_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(crv_context_device_fetches(context, NULL),
-                     CRV_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(crv_context_device_fetches(context, fetches), CRV_ERROR_UNSUPPORTED);
     assert_int_equal(crv_gbuffer_create(NULL, &desc, &gbuffer),
                      CRV_ERROR_INVALID_ARGUMENT);
     assert_int_equal(crv_gbuffer_create(context, NULL, &gbuffer),

@@ -53,9 +53,8 @@ static void release(void *user, void *memory, size_t size)
 }
 
 /* Pieces of two big blocks, one mapped, as an engine gives them. */
-/* Device-local, with room for the two images of 64 MiB whose copies are timed; and
- * host-visible. */
-static const VkDeviceSize BLOCK_BYTES[2] = {(128 + 8) << 20, 8 << 20};
+/* Device-local, host-visible. */
+static const VkDeviceSize BLOCK_BYTES[2] = {8 << 20, 8 << 20};
 
 typedef struct device_source {
     source pieces;
@@ -136,7 +135,6 @@ typedef struct life {
     crv_context_desc desc;
     source memory;
     int errors; /* lines */
-    int without_bandwidth;
     host_image depth, result;
     float planes[2][PIXELS];
 } life;
@@ -245,7 +243,6 @@ static crv_status live(life *l)
     crv_vulkan_pass *pass = NULL;
     crv_vulkan_time times[CRV_VULKAN_MAX_TIMES];
     int32_t count = 0;
-    double bandwidth = 0;
     crv_status status = crv_vulkan_context_create(&l->desc, &l->host, &context);
     if (status == CRV_OK)
         status = crv_vulkan_pass_create(context, &options, &size, &desc, &pass);
@@ -255,9 +252,6 @@ static crv_status live(life *l)
         status = crv_vulkan_pass_times(pass, 0, times, &count);
     if (status == CRV_OK)
         status = run_plan(l, context, &options, &size);
-    if (status == CRV_OK && !l->without_bandwidth) /* last: it takes the longest */
-        status = crv_context_device_bandwidth(context, &bandwidth);
-    assert_true(status != CRV_OK || bandwidth > 0 || l->without_bandwidth);
     crv_vulkan_pass_destroy(pass);
     crv_context_destroy(context);
     assert_int_equal(l->memory.held, 0);
@@ -287,11 +281,9 @@ static int live_until_done(life *l, int *due, int *calls, crv_status wanted)
     return -1;
 }
 
-static void calls_fail_with(engine *e, VkResult result, crv_status status,
-                            int with_bandwidth)
+static void calls_fail_with(engine *e, VkResult result, crv_status status)
 {
     life *l = begin_life(e);
-    l->without_bandwidth = !with_bandwidth;
     driver.result = result;
     /* Each of the functions is called at least once. */
     assert_true(live_until_done(l, &driver.due, &driver.calls, status)
@@ -301,7 +293,7 @@ static void calls_fail_with(engine *e, VkResult result, crv_status status,
 
 static void every_call_of_the_driver_may_fail(void **state)
 {
-    calls_fail_with(*state, VK_ERROR_OUT_OF_DEVICE_MEMORY, CRV_ERROR_OUT_OF_MEMORY, 1);
+    calls_fail_with(*state, VK_ERROR_OUT_OF_DEVICE_MEMORY, CRV_ERROR_OUT_OF_MEMORY);
 }
 
 /* The ways out are those of memory, which the layer has watched: here they are quick. */
@@ -310,7 +302,7 @@ static void the_device_may_be_lost_at_every_call(void **state)
     engine plain;
     (void)state;
     assert_int_equal(engine_open(&plain, 0), 0);
-    calls_fail_with(&plain, VK_ERROR_DEVICE_LOST, CRV_ERROR_DEVICE, 0);
+    calls_fail_with(&plain, VK_ERROR_DEVICE_LOST, CRV_ERROR_DEVICE);
     engine_close(&plain);
 }
 
@@ -333,28 +325,6 @@ static void every_piece_of_device_memory_may_fail(void **state)
                 > 8);
     assert_int_equal(blocks.pieces.held, 0);
     close_blocks(&blocks);
-    end_life(l);
-}
-
-/* Calls fail in turn until a path has been measured: the others do the same again. */
-static void measuring_fetches_may_fail(void **state)
-{
-    life *l = begin_life(*state);
-    double per_s[CRV_FETCH_PATHS][CRV_FETCH_PATTERNS] = {{0}};
-    driver.result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
-    for (driver.due = 1; per_s[0][0] <= 0; driver.due++) {
-        crv_context *context = NULL;
-        driver.calls = l->errors = 0;
-        crv_status status = crv_vulkan_context_create(&l->desc, &l->host, &context);
-        if (status == CRV_OK)
-            status = crv_context_device_fetches(context, per_s);
-        crv_context_destroy(context);
-        assert_int_equal(l->memory.held, 0);
-        assert_int_equal(status, CRV_ERROR_OUT_OF_MEMORY);
-        assert_int_equal(l->errors, 1);
-    }
-    assert_true(driver.due > 20); /* buffers, images, views, sets, runs */
-    driver.due = 0;
     end_life(l);
 }
 
@@ -504,7 +474,6 @@ static void lives_of_the_other_process(void **state)
     const int signals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGABRT};
     crv_status status = CRV_ERROR_DEVICE;
     l->host.callbacks = &callbacks;
-    l->without_bandwidth = 1; /* it only does more of the same */
     for (size_t i = 0; i < sizeof signals / sizeof *signals; i++)
         signal(signals[i], tell_of_crash);
     for (int n = first_due; memory.calls >= memory.due; n++) {
@@ -677,7 +646,6 @@ int main(int argc, char **argv)
         cmocka_unit_test(the_device_may_be_lost_at_every_call),
         cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(every_piece_of_device_memory_may_fail),
-        cmocka_unit_test(measuring_fetches_may_fail),
         cmocka_unit_test(recording_allocates_nothing),
         cmocka_unit_test(the_callbacks_of_the_host_get_back_what_they_gave),
         cmocka_unit_test(every_allocation_of_the_callbacks_may_fail),

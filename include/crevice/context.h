@@ -155,10 +155,6 @@ typedef struct crv_device_time {
     const char *name; /* "upload", "deinterleave", "levels", the method's or filter's
                          name, "download"; static */
     double time_ms;
-    /* That must move at least: images read and written, each counted once. */
-    double bytes;
-    /* Texels fetched from images, at most: rays may end early. 0 where none are. */
-    double fetches;
 } crv_device_time;
 
 #define CRV_MAX_DEVICE_TIMES 8
@@ -171,44 +167,6 @@ typedef struct crv_device_time {
  */
 CRV_API crv_status crv_plan_device_times(const crv_plan *plan, crv_device_time *times,
                                          int32_t *count);
-
-/*
- * How many bytes the device's memory moves in a second, read and written, by the device's
- * own clock: the best of several copies of one image of 64 MiB to another. What the bytes
- * of crv_device_time over their time are to be compared with; caches may carry small
- * frames past it. Takes the images' memory, submits to the context's queue and waits;
- * gives all back. Errors: INVALID_ARGUMENT, also where the host gave no queue;
- * UNSUPPORTED on the CPU, or where the device has no timestamps; OUT_OF_MEMORY; DEVICE.
- */
-CRV_API crv_status crv_context_device_bandwidth(crv_context *context,
-                                                double *bytes_per_s);
-
-/* How a shader can get at depth, and where it looks. */
-typedef enum crv_fetch_path {
-    CRV_FETCH_SAMPLED,       /* texelFetch() of a sampled image: what the methods do */
-    CRV_FETCH_STORAGE_IMAGE, /* imageLoad() */
-    CRV_FETCH_BUFFER,        /* a storage buffer, row by row */
-    CRV_FETCH_GATHER,        /* textureGather(): four neighbours at once, each counted */
-    CRV_FETCH_SHARED, /* from shared memory, filled by the workgroup: where it fits in */
-    CRV_FETCH_PATHS
-} crv_fetch_path;
-
-typedef enum crv_fetch_pattern {
-    CRV_FETCH_ROW,  /* 64 neighbours in a row */
-    CRV_FETCH_NEAR, /* 8 directions of 8 steps to 8 px, turned as the noise tile says */
-    CRV_FETCH_DISK, /* to 64 px */
-    CRV_FETCH_IN_STEP, /* to 64 px, interleaved, from depth taken apart (APART) */
-    CRV_FETCH_PATTERNS
-} crv_fetch_pattern;
-
-/*
- * How many depths of a 2048x2048 image the device fetches in a second by each path in
- * each pattern, by its own clock, the best of several runs; 0 where that pattern has no
- * such path. Takes 50 MiB of device memory, submits to the context's queue and waits;
- * gives all back. Errors: as crv_context_device_bandwidth().
- */
-CRV_API crv_status crv_context_device_fetches(
-    crv_context *context, double fetches_per_s[CRV_FETCH_PATHS][CRV_FETCH_PATTERNS]);
 
 /* The most subpixel samples that crv_multisample_gather() takes. */
 #define CRV_MAX_SUBSAMPLES 16

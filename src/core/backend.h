@@ -57,11 +57,6 @@ struct crv__backend {
     /* The last run's, see crv_plan_device_times(); NULL: there are none. */
     crv_status (*times)(const crv__setup *setup, const void *state,
                         crv_device_time *times, int32_t *count);
-    /* crv_context_device_bandwidth(); NULL: there is no device. */
-    crv_status (*bandwidth)(crv_context *context, double *bytes_per_s);
-    /* crv_context_device_fetches(); NULL likewise. */
-    crv_status (*fetches)(crv_context *context,
-                          double per_s[CRV_FETCH_PATHS][CRV_FETCH_PATTERNS]);
     void (*close)(crv_context *context); /* its device; NULL: nothing to do */
 };
 

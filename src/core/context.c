@@ -113,33 +113,3 @@ void crv_context_destroy(crv_context *context)
     crv_allocator allocator = context->allocator;
     crv__release(&allocator, context, 1, sizeof *context);
 }
-
-static crv_status check_clock(const crv_context *context, const void *out)
-{
-    if (!out)
-        return crv__fail(&context->logger, CRV_ERROR_INVALID_ARGUMENT,
-                         "context: there is no place for the result; give one");
-    if (!context->backend->bandwidth)
-        return crv__fail(&context->logger, CRV_ERROR_UNSUPPORTED,
-                         "context: %s is no device whose memory has a clock; make the "
-                         "context with a Vulkan device",
-                         context->backend->name);
-    return CRV_OK;
-}
-
-crv_status crv_context_device_bandwidth(crv_context *context, double *bytes_per_s)
-{
-    if (!context)
-        return CRV_ERROR_INVALID_ARGUMENT;
-    const crv_status status = check_clock(context, bytes_per_s);
-    return status ? status : context->backend->bandwidth(context, bytes_per_s);
-}
-
-crv_status crv_context_device_fetches(
-    crv_context *context, double fetches_per_s[CRV_FETCH_PATHS][CRV_FETCH_PATTERNS])
-{
-    if (!context)
-        return CRV_ERROR_INVALID_ARGUMENT;
-    const crv_status status = check_clock(context, fetches_per_s);
-    return status ? status : context->backend->fetches(context, fetches_per_s);
-}

@@ -237,37 +237,19 @@ static crv_status run(const crv__work *work, int filter_only, const crv__plane p
 
 /* ---- times ---- */
 
-/* Reads depth and normals, and what came before; writes accessibility. */
-static double bytes_of(const crv__setup *setup, int reads_input)
-{
-    const crv__rectangle r = crv__setup_rectangle(setup);
-    const double pixels = (double)setup->desc.width * setup->desc.height;
-    const double texel = 4 * (double)setup->desc.layers + 16;
-    return pixels * texel + (double)r.width * r.height * (reads_input ? 8 : 4);
-}
-
 /* The steps that a run had between upload and download; their count. */
 static int32_t name_steps(const crv__setup *setup, const plan_state *state,
                           crv_device_time *out)
 {
-    const crv__rectangle r = crv__setup_rectangle(setup);
-    const double layers = setup->desc.layers, area = (double)r.width * r.height,
-                 depths = layers * setup->desc.width * setup->desc.height;
     int32_t count = 0;
     if (!state->filter_only && state->program.deinterleave.pipeline)
-        out[count++] =
-            (crv_device_time){"deinterleave", .bytes = 8 * depths, .fetches = depths};
-    if (!state->filter_only && state->program.prefilter.pipeline) /* 1/4 + 1/16 + ... */
-        out[count++] =
-            (crv_device_time){"levels", .bytes = 8 * depths / 3, .fetches = depths / 3};
+        out[count++].name = "deinterleave";
+    if (!state->filter_only && state->program.prefilter.pipeline)
+        out[count++].name = "levels";
     if (!state->filter_only)
-        out[count++] =
-            (crv_device_time){setup->method->info.name, .bytes = bytes_of(setup, 0),
-                              .fetches = area * (2 + layers * crv__setup_samples(setup))};
+        out[count++].name = setup->method->info.name;
     for (int32_t i = 0; i < state->program.passes; i++)
-        out[count++] = (crv_device_time){
-            setup->filter->info.name, .bytes = bytes_of(setup, 1),
-            .fetches = area * crv__filter_fetches(&state->program, setup)};
+        out[count++].name = setup->filter->info.name;
     return count;
 }
 
@@ -276,7 +258,6 @@ static crv_status times(const crv__setup *setup, const void *data, crv_device_ti
 {
     const plan_state *state = data;
     const crv__slot *slot = &state->slot;
-    const crv__rectangle *r = &slot->rectangle;
     if (!slot->queries)
         return crv__fail(&state->program.device->logger, CRV_ERROR_UNSUPPORTED,
                          "plan: the device has no timestamps");
@@ -290,9 +271,8 @@ static crv_status times(const crv__setup *setup, const void *data, crv_device_ti
     if (status)
         return status;
     const int32_t steps = name_steps(setup, state, out + 1);
-    out[0] = (crv_device_time){"upload", .bytes = bytes_of(setup, 0)};
-    out[steps + 1] =
-        (crv_device_time){"download", .bytes = (double)r->width * r->height * 8};
+    out[0].name = "upload";
+    out[steps + 1].name = "download";
     for (int32_t i = 0; i < steps + 2; i++)
         out[i].time_ms = times_ms[i];
     *count = steps + 2;
@@ -309,6 +289,4 @@ const crv__backend crv__vulkan_backend = {.name = "vulkan",
                                           .plan_destroy = plan_destroy,
                                           .run = run,
                                           .times = times,
-                                          .bandwidth = crv__device_bandwidth,
-                                          .fetches = crv__device_fetches,
                                           .close = close_device};

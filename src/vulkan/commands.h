@@ -22,24 +22,4 @@ crv_status crv__commands_begin(crv__commands *c, const crv__device *d);
 /* Ends, submits, and waits until all is done. */
 crv_status crv__commands_run(crv__commands *c, const crv__device *d);
 
-/* Two timestamps of the device's clock, about what is recorded in between. */
-typedef struct crv__stopwatch {
-    VkQueryPool queries;
-} crv__stopwatch;
-
-/* UNSUPPORTED with a line where the device has no timestamps. Destroy also after an
- * error. */
-crv_status crv__stopwatch_create(crv__stopwatch *w, const crv__device *d);
-void crv__stopwatch_destroy(crv__stopwatch *w, const crv__device *d);
-
-/* Start resets, too, once in a recording. Stop waits for the stages that are timed. */
-void crv__stopwatch_start(const crv__stopwatch *w, const crv__device *d,
-                          VkCommandBuffer commands);
-void crv__stopwatch_stop(const crv__stopwatch *w, const crv__device *d,
-                         VkCommandBuffer commands, VkPipelineStageFlags2 stages);
-
-/* Seconds, once the recording has been executed. */
-crv_status crv__stopwatch_read(const crv__stopwatch *w, const crv__device *d,
-                               double *seconds);
-
 #endif

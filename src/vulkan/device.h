@@ -41,13 +41,6 @@ crv_status crv__device_fail(const crv__device *d, VkResult result, const char *w
 /* From one timestamp to a later one. */
 double crv__device_seconds(const crv__device *d, uint64_t from, uint64_t to);
 
-/* crv_context_device_bandwidth() (bandwidth.c). */
-crv_status crv__device_bandwidth(crv_context *context, double *bytes_per_s);
-
-/* crv_context_device_fetches() (fetches.c). */
-crv_status crv__device_fetches(crv_context *context,
-                               double per_s[CRV_FETCH_PATHS][CRV_FETCH_PATTERNS]);
-
 /* NULL does nothing. */
 void crv__device_destroy(crv__device *d);
 

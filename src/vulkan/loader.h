@@ -74,7 +74,6 @@
     F(CmdBindDescriptorSets)                                                             \
     F(CmdPushConstants)                                                                  \
     F(CmdDispatch)                                                                       \
-    F(CmdCopyImage)                                                                      \
     F(CmdCopyBufferToImage)                                                              \
     F(CmdCopyImageToBuffer)
 

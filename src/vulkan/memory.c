@@ -44,9 +44,11 @@ static VkResult allocate(const crv__device *d, const VkMemoryRequirements *requi
     return result;
 }
 
-static crv_status create_buffer(crv__buffer *b, const crv__device *d, VkDeviceSize size,
-                                VkBufferUsageFlags usage, VkMemoryPropertyFlags needed)
+crv_status crv__buffer_create(crv__buffer *b, const crv__device *d, VkDeviceSize size,
+                              VkBufferUsageFlags usage)
 {
+    const VkMemoryPropertyFlags needed =
+        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     const VkBufferCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = size, .usage = usage};
     VkResult result = d->vk.CreateBuffer(d->device, &info, d->callbacks, &b->buffer);
@@ -60,20 +62,6 @@ static crv_status create_buffer(crv__buffer *b, const crv__device *d, VkDeviceSi
         result = d->vk.BindBufferMemory(d->device, b->buffer, b->block.memory,
                                         b->block.offset);
     return result ? crv__device_fail(d, result, "memory of a buffer") : CRV_OK;
-}
-
-crv_status crv__buffer_create(crv__buffer *b, const crv__device *d, VkDeviceSize size,
-                              VkBufferUsageFlags usage)
-{
-    return create_buffer(b, d, size, usage,
-                         VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT
-                             | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
-}
-
-crv_status crv__buffer_create_local(crv__buffer *b, const crv__device *d,
-                                    VkDeviceSize size, VkBufferUsageFlags usage)
-{
-    return create_buffer(b, d, size, usage, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
 }
 
 void crv__buffer_destroy(crv__buffer *b, const crv__device *d)

@@ -14,9 +14,6 @@ typedef struct crv__buffer {
 /* Host-visible, mapped and coherent. */
 crv_status crv__buffer_create(crv__buffer *b, const crv__device *d, VkDeviceSize size,
                               VkBufferUsageFlags usage);
-/* In the device's own memory, not mapped. */
-crv_status crv__buffer_create_local(crv__buffer *b, const crv__device *d,
-                                    VkDeviceSize size, VkBufferUsageFlags usage);
 void crv__buffer_destroy(crv__buffer *b, const crv__device *d);
 
 enum { CRV__MOST_LEVELS = 6 };

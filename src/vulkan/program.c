@@ -43,20 +43,6 @@ static int32_t part_size(const crv__setup *setup)
     return units < 1 ? 1 : units < all ? units : all;
 }
 
-double crv__setup_samples(const crv__setup *setup)
-{
-    const crv_options *o = &setup->options;
-    const int has_points = setup->pattern || setup->method->pattern_fill;
-    const int has_rays =
-        crv_option_applies(crv_option_find("normal_rays"), &setup->method->info, NULL);
-    const int has_steps =
-        crv_option_applies(crv_option_find("steps"), &setup->method->info, NULL);
-    double rounds = has_points ? o->samples : o->directions;
-    if (has_steps)
-        rounds *= (double)o->steps * (has_rays ? 1 + o->normal_rays : 1);
-    return rounds;
-}
-
 int32_t crv__apart_edge(const crv__device *d, const crv__setup *setup)
 {
     const int32_t edge = setup->options.noise_size;
@@ -161,16 +147,6 @@ static crv_status take_other(crv__program *p, const char *shader, int32_t group,
 static int32_t filter_group(const crv__device *d)
 {
     return d->properties.limits.maxComputeWorkGroupInvocations >= 256 ? 16 : 8;
-}
-
-double crv__filter_fetches(const crv__program *p, const crv__setup *setup)
-{
-    const double group = filter_group(p->device);
-    const char *name = setup->filter->info.name;
-    if (p->passes == 2)
-        return 3 * (group + 12) / group; /* bilateral13: six more on either side */
-    const double window = strcmp(name, "box4") == 0 ? 3 : 4;
-    return 3 * (group + window) * (group + window) / (group * group);
 }
 
 static crv_status take_pipelines(crv__program *p, const crv__setup *setup)

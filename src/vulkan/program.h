@@ -46,12 +46,6 @@ crv_status crv__setup_check(const crv__device *d, const crv__setup *setup);
  * has one place of the noise tile. */
 int32_t crv__apart_edge(const crv__device *d, const crv__setup *setup);
 
-/* How many samples an estimate takes at most, fetching each depth layer at each. */
-double crv__setup_samples(const crv__setup *setup);
-
-/* Texels that a filter's pass fetches, of three images, for one pixel. */
-double crv__filter_fetches(const crv__program *p, const crv__setup *setup);
-
 /* The setup has its patterns. Where it fails, crv__program_destroy() takes back the rest.
  */
 crv_status crv__program_create(crv__program *p, const crv__device *device,

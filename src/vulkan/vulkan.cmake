@@ -24,7 +24,7 @@ if(NOT CREVICE_HAS_VULKAN)
     return()
 endif()
 target_sources(crevice PRIVATE
-    vulkan/backend.c vulkan/bandwidth.c vulkan/commands.c vulkan/device.c vulkan/fetches.c vulkan/formats.c vulkan/loader.c vulkan/memory.c vulkan/pass.c vulkan/pipelines.c
+    vulkan/backend.c vulkan/commands.c vulkan/device.c vulkan/formats.c vulkan/loader.c vulkan/memory.c vulkan/pass.c vulkan/pipelines.c
     vulkan/program.c vulkan/record.c vulkan/slot.c ${CREVICE_SHADER_INCLUDE_DIR}/crevice_shaders.h)
 add_dependencies(crevice crevice_shaders)
 target_include_directories(crevice PRIVATE ${CREVICE_SHADER_INCLUDE_DIR})

@@ -21,7 +21,7 @@ static const struct {
     {"methods", bench_methods_section}, {"passes", bench_passes_section},
     {"memory", bench_memory_section},   {"growth", bench_growth_section},
     {"embree", bench_embree_section},   {"whole", bench_whole_section},
-    {"device", bench_device_section},   {"fetches", bench_fetch_section},
+    {"device", bench_device_section},
 };
 enum { SECTION_COUNT = sizeof sections / sizeof sections[0] };
 
@@ -138,9 +138,8 @@ static const arg run_rows[] = {
      .type = ARG_TEXTS,
      .offset = offsetof(bench_settings, only),
      .computed = "methods, passes, memory, whole; device on a GPU",
-     .help = "methods|passes|memory|growth|embree|whole|device|fetches, a list, too; "
-             "device: every step of a plan by the GPU's clock, fetches: by which paths "
-             "it reads depth how fast, the others by the clock of the host"},
+     .help = "methods|passes|memory|growth|embree|whole|device, a list, too; "
+             "device: every step of a plan by the GPU's clock, the others by the host's"},
     {.name = "--full",
      .type = ARG_FLAG,
      .offset = offsetof(bench_settings, full),
@@ -221,8 +220,7 @@ static int check_device(const bench_settings *s, const bench_choices *c, report 
 {
     for (int32_t i = 0; i < c->section_count; i++) {
         const char *name = c->sections[i];
-        if ((strcmp(name, "device") == 0 || strcmp(name, "fetches") == 0)
-            && device_is_cpu(&s->common)) {
+        if (strcmp(name, "device") == 0 && device_is_cpu(&s->common)) {
             report_error(r,
                          "--only %s: is of a GPU's own clock; give --device vulkan, "
                          "too",

@@ -11,7 +11,7 @@
 #include "common.glsl"
 
 /* 0: all samples at once. */
-layout(constant_id = 22) const int IN_PARTS = 0;
+layout(constant_id = 20) const int IN_PARTS = 0;
 
 /* The directions or points of this dispatch. */
 int part_begin()

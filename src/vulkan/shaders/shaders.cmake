@@ -13,7 +13,7 @@ set(CREVICE_SHADER_INCLUDE_DIR ${CMAKE_CURRENT_BINARY_DIR}/shaders)
 set(CREVICE_SHADERS
     hbao hsao raymarch alchemy vo containment vao ssao
     bilateral13 box4 gauss5 bilateral13_half gauss5_half
-    convert depth_convert deinterleave prefilter fetch)
+    convert depth_convert deinterleave prefilter)
 # Only 1.3 devices are used, but SPIR-V 1.6 would ask them for maintenance4.
 set(CREVICE_SHADER_TARGET vulkan1.2)
 

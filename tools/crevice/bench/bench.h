@@ -157,6 +157,5 @@ int bench_embree_section(bench *b);
 int bench_whole_section(bench *b);
 /* Instead of all the others, with --device vulkan. */
 int bench_device_section(bench *b);
-int bench_fetch_section(bench *b);
 
 #endif

@@ -358,7 +358,7 @@ int bench_choose(const bench_settings *s, const char *const *section_names,
         {"--layouts", &s->layouts, s->full ? "all" : "plain", take_layout},
         {"--arithmetic", &s->arithmetic, s->full ? "both" : "single", take_arithmetic},
         {"--only", &s->only,
-         !device_is_cpu(&s->common) ? (s->full ? "fetches,device" : "device")
+         !device_is_cpu(&s->common) ? "device"
          : s->full                  ? "methods,passes,memory,growth,embree,whole"
                                     : "methods,passes,memory,whole",
          take_section},

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* section_device.c: every method with every choice on a GPU, step by step, by its clock.
  */
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,17 +39,10 @@ static int time_steps(bench *b, crv_plan *plan, crv_gbuffer *gbuffer,
     return EXIT_DONE;
 }
 
-/* Steps between host and device may cross a bus, which is not the device's memory. */
-static bool is_transfer(const char *step)
-{
-    return strcmp(step, "upload") == 0 || strcmp(step, "download") == 0;
-}
-
-/* A context of the device, how its plans work, and what it moves at most. */
+/* A context of the device, and how its plans work. */
 typedef struct device {
     crv_context *context;
     const common_settings *how;
-    double bytes_per_s;
 } device;
 
 static void append(bench *b, const bench_case *c, crv_preset preset, double factor,
@@ -76,14 +68,6 @@ static void append(bench *b, const bench_case *c, crv_preset preset, double fact
         cJSON_AddNumberToObject(row, "runs", s->runs);
         study_add_number(row, "ms", ms);
         study_add_number(row, "mpixels_per_s", pixels / ms * 1e-3);
-        study_add_number(row, "bytes", s->last[i].bytes);
-        study_add_number(row, "fetches", s->last[i].fetches);
-        study_add_number(row, "gb_per_s", s->last[i].bytes / ms * 1e-6);
-        study_add_number(row, "gfetches_per_s", s->last[i].fetches / ms * 1e-6);
-        study_add_number(row, "share_of_bandwidth",
-                         is_transfer(s->last[i].name)
-                             ? NAN
-                             : s->last[i].bytes / (ms * 1e-3) / d->bytes_per_s);
         bench_append(b, "device_steps", row);
     }
 }
@@ -152,27 +136,10 @@ static void print(const bench *b)
         {"step", "step", -1, 0},
         {"ms", "ms", 3, 0},
         {"MPix/s", "mpixels_per_s", 1, 0},
-        {"GB/s", "gb_per_s", 2, 0},
-        {"10^9 fetches/s", "gfetches_per_s", 2, 0},
-        {"of the bandwidth, %", "share_of_bandwidth", 0, 100},
     };
 
-    bench_print_list(b,
-                     "Steps on the device, by its clock: median of the runs; bytes that "
-                     "must move at least over the time",
+    bench_print_list(b, "Steps on the device, by its clock: median of the runs",
                      "device_steps", columns, sizeof columns / sizeof columns[0]);
-}
-
-/* What the steps' bytes are compared with, in the same run. */
-static int measure_bandwidth(bench *b, crv_context *context, double *out)
-{
-    bench_progress(b, "bandwidth of %s", b->settings->common.device);
-    if (!report_ok(b->r, crv_context_device_bandwidth(context, out), "bandwidth"))
-        return EXIT_FAILED;
-    study_add_number(b->results, "device_bytes_per_s", *out);
-    if (b->print)
-        printf("The device copies %.1f GB/s, read and written.\n", *out * 1e-9);
-    return EXIT_DONE;
 }
 
 static int run_frames(bench *b, const device *d)
@@ -196,9 +163,8 @@ static int run_frames(bench *b, const device *d)
     return result;
 }
 
-/* Frames with a layout of depth and an arithmetic of filters. *bytes_per_s: NAN until it
- * has been measured. */
-static int run_way(bench *b, crv_depth_layout layout, bool half, double *bytes_per_s)
+/* Frames with a layout of depth and an arithmetic of filters. */
+static int run_way(bench *b, crv_depth_layout layout, bool half)
 {
     common_settings how = b->settings->common;
     device d = {.how = &how};
@@ -207,9 +173,6 @@ static int run_way(bench *b, crv_depth_layout layout, bool half, double *bytes_p
     how.depth_layout = layout;
     how.half_filters = half;
     result = device_context(&how, &b->r->logger, b->r, &d.context);
-    if (result == EXIT_DONE && isnan(*bytes_per_s))
-        result = measure_bandwidth(b, d.context, bytes_per_s);
-    d.bytes_per_s = *bytes_per_s;
     if (result == EXIT_DONE)
         result = run_frames(b, &d);
     crv_context_destroy(d.context);
@@ -219,12 +182,11 @@ static int run_way(bench *b, crv_depth_layout layout, bool half, double *bytes_p
 int bench_device_section(bench *b)
 {
     const bench_choices *o = b->choices;
-    double bytes_per_s = NAN;
     int result = EXIT_DONE;
 
     for (int32_t l = 0; l < o->layout_count; l++)
         for (int32_t a = 0; a < o->arithmetic_count && result == EXIT_DONE; a++)
-            result = run_way(b, o->layouts[l], o->half[a], &bytes_per_s);
+            result = run_way(b, o->layouts[l], o->half[a]);
     if (result == EXIT_DONE)
         print(b);
     return result;
