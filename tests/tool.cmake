@@ -9,7 +9,7 @@ crevice_test(test_tool_metrics_flip SOURCES test_tool_metrics_flip.c ${common_di
 crevice_test(test_tool_metrics_heatmap
     SOURCES test_tool_metrics_heatmap.c ${common_dir}/heatmap.c)
 crevice_test(test_tool_args
-    SOURCES test_tool_args.c ${common_dir}/args.c ${common_dir}/values.c ${common_dir}/report.c
+    SOURCES test_tool_args.c ${common_dir}/args.c ${common_dir}/values.c ${common_dir}/report.c ${common_dir}/utf8.c
             ${tool_dir}/frames.c)
 crevice_test(test_tool_stability
     SOURCES test_tool_stability.c ${tool_dir}/study/stability.c)
@@ -28,7 +28,7 @@ endforeach()
 
 crevice_test(test_tool_plot
     SOURCES test_tool_plot.c ${tool_dir}/study/plot_pareto.c ${tool_dir}/study/plot_axis.c
-            ${common_dir}/text.c)
+            ${common_dir}/text.c ${common_dir}/utf8.c)
 target_include_directories(test_tool_plot PRIVATE ${common_dir} ${tool_dir} ${PROJECT_SOURCE_DIR}/tools)
 
 # Each script gets the tool and a folder of its own to write in.

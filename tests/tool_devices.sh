@@ -39,34 +39,20 @@ for method in hbao vao; do
     # 2e-3 but for a pixel in a thousand is the promise; the mean then keeps well below.
     at_most "$(number mae)" 0.001 "$method: mean error of vulkan"
 done
-# A row for each step of each method: upload, estimate, two passes of the filter, download.
-good bench builtin:corner --device vulkan --sizes 64x36 --seconds 0 --repeats 1 \
-    --methods hbao,vo --filters bilateral13 --json bench.json
-[ "$(grep -c '"step":' bench.json)" -eq 10 ] || fail "steps: $(grep '"step":' bench.json)"
-grep -q '"step":[[:space:]]*"hbao"' bench.json || fail "no step of hbao"
-# Every way to compute it has rows of its own, and the steps that only it has.
-good bench builtin:corner --device vulkan --sizes 64x36 --seconds 0 --repeats 1 \
-    --methods hbao --filters bilateral13 --layouts all --arithmetic both --json bench.json
+# Every way to compute it has a row, and the steps that only it has.
+good bench builtin:corner --device vulkan --size 64x36 --seconds 0 --repeats 1 --json \
+    --method hbao --filter bilateral13 --depth-layout all --arithmetic all
 python3 -c 'import json, sys
-rows = json.load(sys.stdin)["device_steps"]
-extra = {"plain": [], "apart": ["deinterleave"], "levels": ["levels"]}
+rows = json.load(sys.stdin)["rows"]
+extra = {"plain": [], "deinterleaved": ["deinterleave"], "levels": ["levels"]}
 for layout, steps in extra.items():
     for arithmetic in ("single", "half"):
-        mine = [r for r in rows if (r["layout"], r["arithmetic"]) == (layout, arithmetic)]
+        mine = [r for r in rows
+                if (r["depth_layout"], r["arithmetic"]) == (layout, arithmetic)]
         wanted = ["upload"] + steps + ["hbao", "bilateral13", "bilateral13", "download"]
-        assert [r["step"] for r in mine] == wanted, mine
-' <bench.json || fail "ways to compute"
-# The page of a GPU, tried on whatever there is.
-python3 "$(dirname "$0")/../docs/performance_gpu.py" "$tool" --brief --size 64x36 --shared "" \
-    -o page.md 2>stderr.txt || { cat stderr.txt >&2; fail "docs/performance_gpu.py"; }
-for row in '| `hbao` and `bilateral13`, 64x36, ' '| `gauss5` | - | - | half | ' \
-    '| `deinterleave` of `hbao` | 3 | apart | '; do
-    grep -qF "$row" page.md || fail "the page has no $row"
-done
-bad 2 '--layouts: is for a GPU' bench --layouts apart
-bad 2 '--layouts: no "apar"; did you mean apart' bench --device vulkan --layouts apar
-bad 2 '--only device: ' bench --only device
-bad 2 '--isas: contradicts --device' bench --device vulkan --isas scalar
+        assert [[s["name"] for s in r["steps"]] for r in mine] == [wanted], mine
+' <stdout.txt || fail "ways to compute"
+bad 2 'did you mean levels' bench --device vulkan --depth-layout level
 
 good gbuffer builtin:sphere --size 64x36 -o passes.exr
 good ao passes.exr -o cpu.exr --exact

@@ -1,71 +1,56 @@
 /* SPDX-License-Identifier: MIT */
 #include "metrics_print.h"
 
-#include <cjson/cJSON.h>
-#include <math.h>
 #include <stdio.h>
 
-static void add_number(cJSON *object, const char *key, double value)
-{
-    if (isfinite(value))
-        cJSON_AddNumberToObject(object, key, value);
-    else
-        cJSON_AddNullToObject(object, key);
-}
+#include "json.h"
 
 static void add_differences(cJSON *root, const metrics *m)
 {
-    add_number(root, "pixels", (double)m->pixels);
-    add_number(root, "mean_a", m->mean_a);
-    add_number(root, "mean_b", m->mean_b);
-    add_number(root, "bias", m->bias);
-    add_number(root, "rmse", m->rmse);
-    add_number(root, "mae", m->mae);
-    add_number(root, "psnr_db", m->psnr_db);
-    add_number(root, "ssim", m->ssim);
-    add_number(root, "ssim_windows", (double)m->ssim_windows);
-    add_number(root, "max_error", m->max_error);
-    add_number(root, "max_x", m->max_x);
-    add_number(root, "max_y", m->max_y);
-    add_number(root, "error_q01", m->error_q01);
-    add_number(root, "error_q99", m->error_q99);
+    json_add_number(root, "pixels", (double)m->pixels);
+    json_add_number(root, "mean_a", m->mean_a);
+    json_add_number(root, "mean_b", m->mean_b);
+    json_add_number(root, "bias", m->bias);
+    json_add_number(root, "rmse", m->rmse);
+    json_add_number(root, "mae", m->mae);
+    json_add_number(root, "psnr_db", m->psnr_db);
+    json_add_number(root, "ssim", m->ssim);
+    json_add_number(root, "ssim_windows", (double)m->ssim_windows);
+    json_add_number(root, "max_error", m->max_error);
+    json_add_number(root, "max_x", m->max_x);
+    json_add_number(root, "max_y", m->max_y);
+    json_add_number(root, "error_q01", m->error_q01);
+    json_add_number(root, "error_q99", m->error_q99);
 }
 
 static void add_fit(cJSON *root, const metrics_fit *fit)
 {
-    add_number(root, "fit_power", fit->power.power);
-    add_number(root, "fit_power_rmse", fit->power.rmse);
-    add_number(root, "fit_intensity", fit->intensity.intensity);
-    add_number(root, "fit_intensity_rmse", fit->intensity.rmse);
-    add_number(root, "fit_both_intensity", fit->both.intensity);
-    add_number(root, "fit_both_power", fit->both.power);
-    add_number(root, "fit_both_rmse", fit->both.rmse);
+    json_add_number(root, "fit_power", fit->power.power);
+    json_add_number(root, "fit_power_rmse", fit->power.rmse);
+    json_add_number(root, "fit_intensity", fit->intensity.intensity);
+    json_add_number(root, "fit_intensity_rmse", fit->intensity.rmse);
+    json_add_number(root, "fit_both_intensity", fit->both.intensity);
+    json_add_number(root, "fit_both_power", fit->both.power);
+    json_add_number(root, "fit_both_rmse", fit->both.rmse);
 }
 
 int metrics_print_json(const metrics_findings *f, report *r)
 {
     cJSON *root = cJSON_CreateObject();
-    char *text;
 
-    cJSON_AddStringToObject(root, "a", f->a);
-    cJSON_AddStringToObject(root, "b", f->b);
-    add_number(root, "width", f->width);
-    add_number(root, "height", f->height);
+    json_add_text(root, "a", f->a);
+    json_add_text(root, "b", f->b);
+    json_add_number(root, "width", f->width);
+    json_add_number(root, "height", f->height);
     add_differences(root, &f->m);
-    add_number(root, "flip", f->flip);
-    add_number(root, "flip_ppd", f->flip_ppd);
+    json_add_number(root, "flip", f->flip);
+    json_add_number(root, "flip_ppd", f->flip_ppd);
     add_fit(root, &f->fit);
     if (f->heat_map != NULL) {
-        cJSON_AddStringToObject(root, "heat_map", f->heat_map);
-        add_number(root, "heat_scale", f->heat_scale);
+        json_add_text(root, "heat_map", f->heat_map);
+        json_add_number(root, "heat_scale", f->heat_scale);
     }
-    text = cJSON_Print(root);
-    cJSON_Delete(root);
-    if (text == NULL)
-        return report_no_memory(r);
-    puts(text);
-    cJSON_free(text);
-    return EXIT_DONE;
+    return json_print(root, r);
 }
 
 void metrics_print_text(const metrics_findings *f)

@@ -8,19 +8,25 @@
 #include <string.h>
 #include <time.h>
 
+#include "utf8.h"
+
 enum { LINE_SIZE = 8192 };
 
-/* One call, one line: a line break in a file's name must not make two of it. */
+/* One call, one line: neither a line break in a file's name may make two of it, nor any
+ * control character or stray byte reach the terminal. U+0085 is two bytes, one '?' each.
+ */
 static void write_line(const char *prefix, const char *line)
 {
     char clean[LINE_SIZE];
-    size_t i = 0;
+    size_t used = 0;
 
-    for (; line[i] != '\0' && i + 1 < sizeof clean; i++) {
-        unsigned char c = (unsigned char)line[i];
-        clean[i] = c < 0x20 || c == 0x7f ? '?' : line[i];
+    while (*line != '\0' && used + 4 < sizeof clean) {
+        const size_t length = utf8_printable(line);
+        memcpy(clean + used, length > 0 ? line : "?", length > 0 ? length : 1);
+        used += length > 0 ? length : 1;
+        line += length > 0 ? length : 1;
     }
-    clean[i] = '\0';
+    clean[used] = '\0';
     fprintf(stderr, "%s%s\n", prefix, clean);
 }
 

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #include "text.h"
 
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "utf8.h"
 
 /* Room for so many more bytes and the zero at the end. */
 static bool reserve(text *t, size_t more)
@@ -68,28 +69,6 @@ void text_addf(text *t, const char *format, ...)
     va_end(arguments);
 }
 
-/* The bytes of the UTF-8 character at `at`; 0 where there is none (RFC 3629: neither
- * overlong forms nor surrogates nor beyond U+10FFFF). */
-static size_t character_length(const char *at)
-{
-    const unsigned char *b = (const unsigned char *)at;
-    size_t length = b[0] < 0x80 ? 1 : b[0] < 0xe0 ? 2 : b[0] < 0xf0 ? 3 : 4;
-    unsigned char low = 0x80, high = 0xbf;
-
-    if (length == 1)
-        return 1;
-    if (b[0] < 0xc2 || b[0] > 0xf4)
-        return 0;
-    low = b[0] == 0xe0 ? 0xa0 : b[0] == 0xf0 ? 0x90 : low;
-    high = b[0] == 0xed ? 0x9f : b[0] == 0xf4 ? 0x8f : high;
-    if (b[1] < low || b[1] > high)
-        return 0;
-    for (size_t i = 2; i < length; i++)
-        if (b[i] < 0x80 || b[i] > 0xbf)
-            return 0;
-    return length;
-}
-
 static const char *entity(unsigned char c)
 {
     switch (c) {
@@ -104,16 +83,17 @@ static const char *entity(unsigned char c)
     case '\'':
         return "&#39;";
     default:
-        return (c < 0x20 && c != '\t' && c != '\n') || c == 0x7f ? "\xef\xbf\xbd" : NULL;
+        return (c < 0x20 && c != '\t' && c != '\n') || c == 0x7f ? UTF8_REPLACEMENT
+                                                                 : NULL;
     }
 }
 
 void text_add_escaped(text *t, const char *words)
 {
     while (*words != '\0') {
-        size_t length = character_length(words);
+        size_t length = utf8_length(words);
         const char *instead =
-            length == 0 ? "\xef\xbf\xbd" : entity((unsigned char)*words);
+            length == 0 ? UTF8_REPLACEMENT : entity((unsigned char)*words);
 
         if (instead != NULL)
             text_add(t, instead);

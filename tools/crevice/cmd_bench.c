@@ -1,29 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-#define _POSIX_C_SOURCE 200809L
-
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "bench/bench.h"
 #include "commands.h"
 #include "common/device.h"
-#include "common/output.h"
+#include "common/json.h"
 #include "common/machine.h"
-#include "common/text.h"
 
-static const struct {
-    const char *name;
-    int (*run)(bench *b);
-} sections[] = {
-    {"methods", bench_methods_section}, {"passes", bench_passes_section},
-    {"memory", bench_memory_section},   {"growth", bench_growth_section},
-    {"embree", bench_embree_section},   {"whole", bench_whole_section},
-    {"device", bench_device_section},
-};
-enum { SECTION_COUNT = sizeof sections / sizeof sections[0] };
+/* Longer than this is announced. */
+#define LONG_SECONDS 10.0
 
 static const arg input_rows[] = {
     {.name = "INPUT",
@@ -31,18 +17,8 @@ static const arg input_rows[] = {
      .offset = offsetof(bench_settings, inputs),
      .computed = "builtin:courtyard",
      .help = "mesh files or builtin:NAME, each framed by itself, and .exr frames with a "
-             "depth pass, which keep their size"},
-    {.name = "--views",
-     .value = "FILE.json",
-     .type = ARG_TEXT,
-     .offset = offsetof(bench_settings, views),
-     .help = "views of models, a list as `crevice help report` describes it"},
-    {.name = "--view",
-     .value = "NAME",
-     .type = ARG_TEXTS,
-     .offset = offsetof(bench_settings, views_named),
-     .computed = "all",
-     .help = "only this view; may be given again"},
+             "depth pass, which keep their size; `crevice gbuffer` makes such frames of "
+             "any camera"},
     {.name = "--vfov",
      .value = "DEG",
      .type = ARG_NUMBER,
@@ -53,107 +29,101 @@ static const arg input_rows[] = {
      .computed = "from the file's metadata",
      .help = "full vertical field of view of .exr frames"},
     {.name = "--json",
-     .value = "FILE",
-     .type = ARG_TEXT,
+     .type = ARG_FLAG,
      .offset = offsetof(bench_settings, json),
-     .help = "write all numbers there; -: to standard output, instead of the tables"},
+     .help = "write JSON to standard output instead of the table"},
 };
 static const arg_table input_table = ARG_TABLE("Files", input_rows);
 
 static const arg choice_rows[] = {
-    {.name = "--methods",
+    {.name = "--method",
      .value = "LIST",
      .type = ARG_TEXTS,
      .offset = offsetof(bench_settings, methods),
      .computed = "all",
-     .help = "methods, or all"},
-    {.name = "--presets",
+     .help = "methods, or all; none: the filters alone"},
+    {.name = "--preset",
      .value = "LIST",
      .type = ARG_TEXTS,
      .offset = offsetof(bench_settings, presets),
      .computed = "medium",
-     .help = "presets of these, or all"},
-    {.name = "--filters",
+     .help = "presets of the methods, or all"},
+    {.name = "--filter",
      .value = "LIST",
      .type = ARG_TEXTS,
      .offset = offsetof(bench_settings, filters),
      .computed = "none",
-     .help = "filters, none, preset (what the preset brings), or all"},
+     .help = "filters, none, preset (the preset's own), or all filters"},
     {.name = "--set",
      .value = "KEY=VALUE",
      .type = ARG_TEXTS,
      .offset = offsetof(bench_settings, sets),
      .help = "an option (`crevice methods`) of the methods that read it; may be given "
-             "again"},
-    {.name = "--radii",
+             "again. radius=R replaces the radius that suits the scene"},
+    {.name = "--radius-factor",
      .value = "LIST",
      .type = ARG_TEXTS,
-     .offset = offsetof(bench_settings, radii),
+     .offset = offsetof(bench_settings, radius_factors),
      .computed = "1",
-     .help = "radii, as factors of the view's own"},
-    {.name = "--sizes",
+     .help = "factors of the radius: how time grows with it"},
+    {.name = "--size",
      .value = "LIST",
      .type = ARG_TEXTS,
      .offset = offsetof(bench_settings, sizes),
      .computed = "1280x720",
-     .help = "sizes of the pictures, WIDTHxHEIGHT"},
-    {.name = "--isas",
+     .help = "sizes of the pictures, WIDTHxHEIGHT; .exr frames keep theirs"},
+    {.name = "--isa",
      .value = "LIST",
      .type = ARG_TEXTS,
      .offset = offsetof(bench_settings, isas),
-     .computed = "the best and scalar, or --isa",
-     .help = "instruction sets, or all that this machine has"},
-    {.name = "--structures",
+     .computed = "the best and scalar",
+     .help = "instruction sets of the CPU, or all that this machine has"},
+    {.name = "--structure",
      .value = "LIST",
      .type = ARG_TEXTS,
      .offset = offsetof(bench_settings, structures),
-     .computed = "fast, or exact with --exact",
-     .help = "fast, exact or both: whether kernels may move samples a little"},
-    {.name = "--threads-list",
+     .computed = "deinterleaved",
+     .help = "deinterleaved (what runs by default), exact (what --exact chooses in other "
+             "commands), or all"},
+    {.name = "--threads",
      .value = "LIST",
      .type = ARG_TEXTS,
      .offset = offsetof(bench_settings, threads),
-     .computed = "--threads",
+     .computed = "all processors",
      .help = "numbers of threads"},
-    {.name = "--layouts",
+    {.name = "--device",
+     .value = "NAME",
+     .type = ARG_TEXT,
+     .computed = "cpu",
+     .offset = offsetof(common_settings, device),
+     .help = "cpu, or vulkan or vulkan:N, the GPU that `crevice devices` gives that "
+             "number; every step of a run is then timed by the device's own clock, too"},
+    {.name = "--depth-layout",
      .value = "LIST",
      .type = ARG_TEXTS,
-     .offset = offsetof(bench_settings, layouts),
+     .offset = offsetof(bench_settings, depth_layouts),
      .computed = "plain",
-     .help = "on a GPU, how depth lies in its memory: plain; apart, by the phases of the "
-             "noise tile; levels, coarser for far samples; or all"},
+     .help = "on a GPU, how depth lies in its memory: plain, deinterleaved, levels "
+             "(coarser for far samples), or all"},
     {.name = "--arithmetic",
      .value = "LIST",
      .type = ARG_TEXTS,
      .offset = offsetof(bench_settings, arithmetic),
      .computed = "single",
-     .help = "on a GPU, single, half or both: whether filters compute in half floats"},
+     .help = "on a GPU, what filters compute in: single, half, or all"},
 };
 static const arg_table choice_table =
     ARG_TABLE("What is measured, as lists with commas or flags given again", choice_rows);
 
 static const arg run_rows[] = {
-    {.name = "--only",
-     .value = "SECTION",
-     .type = ARG_TEXTS,
-     .offset = offsetof(bench_settings, only),
-     .computed = "methods, passes, memory, whole; device on a GPU",
-     .help = "methods|passes|memory|growth|embree|whole|device, a list, too; "
-             "device: every step of a plan by the GPU's clock, the others by the host's"},
-    {.name = "--full",
-     .type = ARG_FLAG,
-     .offset = offsetof(bench_settings, full),
-     .help = "all sections, presets, instruction sets and structures, without and with "
-             "the presets' filters, at 1920x1080, growth up to 7680x4320; takes an hour "
-             "or so and 3 GB. Lists that are given still hold"},
     {.name = "--repeats",
      .value = "N",
      .type = ARG_INT,
      .min = 1,
-     .max = 500,
+     .max = BENCH_RUNS_MAX,
      .initial = "9",
      .offset = offsetof(bench_settings, repeats),
-     .help = "timed runs after one to warm up; more where they are short"},
+     .help = "timed runs after one to warm up; more if they are short"},
     {.name = "--seconds",
      .value = "S",
      .type = ARG_NUMBER,
@@ -167,47 +137,76 @@ static const arg run_rows[] = {
 };
 static const arg_table run_table = ARG_TABLE("How it is measured", run_rows);
 
-static const arg_table *const tables[] = {
-    &input_table, &choice_table,      &run_table, &args_threads,
-    &args_device, &args_output_lines, NULL};
+static const arg_table *const tables[] = {&input_table, &choice_table, &run_table,
+                                          &args_output_lines, NULL};
 
 static const char *const examples[] = {
-    "the built-in scene, in about a minute",
+    "the built-in scene, in half a minute",
     "crevice bench",
     "two methods with every instruction set, on one and two threads",
-    "crevice bench --methods hbao,alchemy --isas all --threads-list 1,2 --only methods",
+    "crevice bench --method hbao,alchemy --isa all --threads 1,2",
     "your own scene in full high definition, numbers to a file",
-    "crevice bench hall.glb --sizes 1920x1080 --json hall.json",
-    "a renderer's frame",
-    "crevice bench frame.exr --vfov 60 --filters none,bilateral13",
+    "crevice bench hall.glb --size 1920x1080 --json >hall.json",
+    "a renderer's frame, without and with a filter",
+    "crevice bench frame.exr --vfov 60 --filter none,bilateral13",
+    "the filters alone, and a GPU",
+    "crevice bench --method none --filter all --device vulkan",
     NULL,
 };
 
-/* A typing error must not pass in silence: some chosen method reads what is set. */
-static int check_sets(const bench_settings *s, const bench_choices *c, report *r)
-{
-    for (int32_t i = 0; i < s->sets.count; i++) {
-        const char *given = s->sets.value[i], *equals = strchr(given, '=');
-        char key[64] = "";
-        const crv_option *option;
-        bool is_read = false;
+typedef struct bench {
+    const bench_settings *settings;
+    bench_choices choices;
+    bench_clock clock;
+    report *r;
+    cJSON *rows; /* NULL: a table */
+    bool device;
+    double started;
+    int32_t done, count;
+} bench;
 
-        if (equals != NULL && (size_t)(equals - given) < sizeof key)
-            memcpy(key, given, (size_t)(equals - given));
-        option = crv_option_find(key);
-        if (option == NULL || strcmp(option->key, "radius") == 0) {
-            report_error(r,
+/* Splits --set KEY=VALUE; NULL if it sets no option. */
+static const crv_option *split_set(const char *given, const char **value)
+{
+    const char *equals = strchr(given, '=');
+    char key[64] = "";
+
+    if (!equals || (size_t)(equals - given) >= sizeof key)
+        return NULL;
+    memcpy(key, given, (size_t)(equals - given));
+    *value = equals + 1;
+    return crv_option_find(key);
+}
+
+static const crv_method *method_of(int32_t index)
+{
+    return index == BENCH_METHOD_NONE ? NULL : crv_method_at(index - BENCH_METHOD_FIRST);
+}
+
+/* A typing error must not pass in silence: some chosen method or a filter reads what is
+ * set. */
+static int check_sets(const bench *b)
+{
+    const bench_list *methods = &b->choices.methods;
+
+    for (int32_t i = 0; i < b->settings->sets.count; i++) {
+        const char *given = b->settings->sets.value[i], *value;
+        const crv_option *option = split_set(given, &value);
+        bool is_read = false;
+        if (!option) {
+            report_error(b->r,
                          "--set: \"%s\" sets no option; give KEY=VALUE, a key of "
-                         "`crevice methods`, and --radii for the radius",
+                         "`crevice methods`",
                          given);
             return EXIT_USAGE;
         }
-        for (int32_t m = 0; m < c->method_count; m++)
+        for (int32_t m = 0; m < methods->count; m++)
             for (int32_t f = 0; f < crv_filter_count(); f++)
                 is_read = is_read
-                          || crv_option_applies(option, c->methods[m], crv_filter_at(f));
+                          || crv_option_applies(option, method_of(methods->at[m]),
+                                                crv_filter_at(f));
         if (!is_read) {
-            report_error(r, "--set: no chosen method reads %s; see `crevice methods`",
+            report_error(b->r, "--set: no chosen method reads %s; see `crevice methods`",
                          option->key);
             return EXIT_USAGE;
         }
@@ -215,261 +214,262 @@ static int check_sets(const bench_settings *s, const bench_choices *c, report *r
     return EXIT_DONE;
 }
 
-/* The section of a GPU's own clock has nothing to read on a CPU. */
-static int check_device(const bench_settings *s, const bench_choices *c, report *r)
+static int apply_sets(const bench *b, crv_options *o)
 {
-    for (int32_t i = 0; i < c->section_count; i++) {
-        const char *name = c->sections[i];
-        if (strcmp(name, "device") == 0 && device_is_cpu(&s->common)) {
-            report_error(r,
-                         "--only %s: is of a GPU's own clock; give --device vulkan, "
-                         "too",
-                         name);
+    for (int32_t i = 0; i < b->settings->sets.count; i++) {
+        const char *value = NULL;
+        const crv_option *option = split_set(b->settings->sets.value[i], &value);
+        if (crv_option_applies(option, o->method, o->filter)
+            && crv_options_set(o, option->key, value, &b->r->logger) != CRV_OK)
             return EXIT_USAGE;
-        }
     }
     return EXIT_DONE;
 }
 
-static int check(const bench_settings *s, bench_choices *c, report *r)
+/* A filter alone needs a plan, too, whose method is not run. */
+static int make_options(const bench *b, const bench_scene *on, int32_t method,
+                        int32_t preset, int32_t filter, bench_case *out)
 {
-    static const char *names[SECTION_COUNT + 1];
-    int result;
+    const crv_logger log = report_errors_only(b->r);
+    const crv_method *chosen = method_of(method);
+    crv_options *o = &out->options;
 
-    for (int i = 0; i < SECTION_COUNT; i++)
-        names[i] = sections[i].name;
-    result = bench_choose(s, names, c, r);
-    if (result == EXIT_DONE)
-        result = check_sets(s, c, r);
-    if (result == EXIT_DONE)
-        result = check_device(s, c, r);
-    return result;
+    *out = (bench_case){.scene = on, .filter_only = !chosen, .preset = "none"};
+    crv_options_init(o, sizeof *o, chosen ? chosen->name : NULL);
+    if (chosen) {
+        crv_options_preset(o, (crv_preset)preset);
+        out->preset = crv_preset_name((crv_preset)preset);
+    }
+    if (filter == BENCH_FILTER_NONE)
+        o->filter = NULL;
+    else if (filter >= BENCH_FILTER_FIRST)
+        o->filter = crv_filter_at(filter - BENCH_FILTER_FIRST);
+    o->radius = on->radius;
+    if (apply_sets(b, o) != EXIT_DONE)
+        return EXIT_USAGE;
+    return crv_options_check(o, &log) == CRV_OK ? EXIT_DONE : EXIT_USAGE;
 }
 
-static bool to_stdout(const bench_settings *s)
+static void tell_progress(const bench *b, const bench_case *c)
 {
-    return s->json != NULL && strcmp(s->json, "-") == 0;
+    const double seconds = report_seconds() - b->started;
+    const double left = b->done > 0 ? seconds / b->done * (b->count - b->done) : 0.0;
+
+    if (!b->rows)
+        return; /* the table's lines tell */
+    report_info(b->r, "%d of %d: %s %s, %s; %.0f s left", b->done + 1, b->count,
+                c->scene->name, c->filter_only ? "none" : c->options.method->name,
+                c->options.filter ? c->options.filter->name : "no filter", left);
 }
 
-static void add_texts(text *out, const char *flag, const arg_texts *texts)
+static int measure(bench *b, const bench_case *c)
 {
-    for (int32_t i = 0; i < texts->count; i++)
-        text_addf(out, "%s%s %s", flag[0] != '\0' ? " " : "", flag, texts->value[i]);
-}
+    bench_outcome outcome;
 
-/* What would measure this again. */
-static void describe_command(const bench_settings *s, text *out)
-{
-    text_add(out, "crevice bench");
-    add_texts(out, "", &s->inputs);
-    if (s->views != NULL)
-        text_addf(out, " --views %s", s->views);
-    add_texts(out, "--view", &s->views_named);
-    if (s->vfov_deg.given)
-        text_addf(out, " --vfov %g", s->vfov_deg.value);
-    if (s->full)
-        text_add(out, " --full");
-    add_texts(out, "--only", &s->only);
-    add_texts(out, "--methods", &s->methods);
-    add_texts(out, "--presets", &s->presets);
-    add_texts(out, "--filters", &s->filters);
-    add_texts(out, "--set", &s->sets);
-    add_texts(out, "--radii", &s->radii);
-    add_texts(out, "--sizes", &s->sizes);
-    add_texts(out, "--isas", &s->isas);
-    add_texts(out, "--structures", &s->structures);
-    add_texts(out, "--threads-list", &s->threads);
-    add_texts(out, "--layouts", &s->layouts);
-    add_texts(out, "--arithmetic", &s->arithmetic);
-    text_addf(out, " --repeats %d --seconds %g", s->repeats.value, s->seconds.value);
-    if (s->common.threads.given)
-        text_addf(out, " --threads %d", s->common.threads.value);
-    device_describe(&s->common, out);
-}
-
-static int describe(bench *b)
-{
-    machine m = machine_look(b->all_threads);
-    const char *source = bench_clock_source(&b->clock);
-    text line = {0};
-    cJSON *sets;
-
-    describe_command(b->settings, &line);
-    if (line.failed) {
-        text_free(&line);
+    tell_progress(b, c);
+    const int result = bench_measure(b->settings, &b->clock, c, b->r, &outcome);
+    b->done++;
+    if (result != EXIT_DONE)
+        return result;
+    cJSON *row = bench_row(b->settings, c, &outcome);
+    if (!row)
         return report_no_memory(b->r);
+    if (b->rows) {
+        cJSON_AddItemToArray(b->rows, row);
+        return EXIT_DONE;
     }
-    cJSON_AddStringToObject(b->results, "command", line.data);
-    text_free(&line);
-    cJSON_AddStringToObject(b->results, "version", crv_version());
-    cJSON_AddStringToObject(b->results, "compiler", m.compiler);
-    cJSON_AddStringToObject(b->results, "processor", m.processor);
-    cJSON_AddNumberToObject(b->results, "threads", b->all_threads);
-    sets = cJSON_AddArrayToObject(b->results, "isas");
-    for (int i = 0; crv_isa_name((crv_isa)i) != NULL; i++)
-        if (crv_isa_available() >> i & 1)
-            cJSON_AddItemToArray(sets, cJSON_CreateString(crv_isa_name((crv_isa)i)));
-    cJSON_AddNumberToObject(b->results, "repeats", b->clock.repeats);
-    cJSON_AddNumberToObject(b->results, "seconds", b->clock.seconds);
-    cJSON_AddNumberToObject(b->results, "clock_ghz", b->clock.ghz);
-    cJSON_AddStringToObject(b->results, "cycles_from", source);
-    if (b->print)
-        printf("crevice %s, %s, %s, %d thread%s, %.2f GHz\n", crv_version(), m.compiler,
-               m.processor, b->all_threads, b->all_threads == 1 ? "" : "s", b->clock.ghz);
-    if (b->print && b->clock.counter < 0)
-        printf("The cycle counter cannot be read here; cycles are %s.\n",
-               b->clock.ghz > 0.0 ? "processor time by the clock of a chain of additions"
-                                  : "left out");
+    bench_print_row(row, b->device);
+    cJSON_Delete(row);
     return EXIT_DONE;
 }
 
-static bool is_wanted(const bench_choices *c, const char *section)
+/* The case with every set, structure, number of threads, layout and arithmetic. Scalar
+ * code has one structure only. */
+static int run_ways(bench *b, bench_case *c)
 {
-    for (int32_t i = 0; i < c->section_count; i++)
-        if (strcmp(c->sections[i], section) == 0)
-            return true;
-    return false;
-}
-
-static int run_sections(bench *b)
-{
-    int result = describe(b);
-
-    /* Of the host, whose clock times all sections but that of the device. */
-    if (result == EXIT_DONE
-        && (b->choices->section_count > 1 || !is_wanted(b->choices, "device")))
-        result = bench_ceilings_section(b);
-    for (int i = 0; i < SECTION_COUNT && result == EXIT_DONE; i++)
-        if (is_wanted(b->choices, sections[i].name))
-            result = sections[i].run(b);
-    return result;
-}
-
-typedef struct bytes {
-    const char *path, *data;
-    const crv_logger *log;
-} bytes;
-
-static int write_bytes(void *data)
-{
-    const bytes *w = data;
-
-    return io_write_bytes(w->path, w->data, strlen(w->data), w->log);
-}
-
-static int write_json(const bench *b)
-{
-    char *words = cJSON_Print(b->results);
-    text line = {0};
-    bytes work = {.path = b->settings->json, .log = &b->r->logger};
+    const bench_choices *o = &b->choices;
+    const int32_t sizes[] = {o->isas.count, o->structures.count, o->threads.count,
+                             o->layouts.count, o->arithmetic.count};
+    int32_t total = 1;
     int result = EXIT_DONE;
 
-    if (words != NULL)
-        text_addf(&line, "%s\n", words);
-    cJSON_free(words);
-    work.data = line.data;
-    if (line.data == NULL || line.failed)
-        result = report_no_memory(b->r);
-    else if (to_stdout(b->settings))
-        fputs(line.data, stdout);
-    else if (output_guarded(write_bytes, &work) != 0)
-        result = EXIT_FAILED;
-    else
-        report_info(b->r, "wrote %s", work.path);
-    text_free(&line);
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
+        total *= sizes[i];
+    for (int32_t k = 0; k < total && result == EXIT_DONE; k++) {
+        int32_t at[sizeof sizes / sizeof sizes[0]], rest = k;
+        for (int i = (int)(sizeof sizes / sizeof sizes[0]) - 1; i >= 0; i--) {
+            at[i] = rest % sizes[i];
+            rest /= sizes[i];
+        }
+        c->isa = o->isas.at[at[0]];
+        c->structure = o->structures.at[at[1]];
+        c->threads = o->threads.at[at[2]];
+        c->layout = o->layouts.at[at[3]];
+        c->arithmetic = o->arithmetic.at[at[4]];
+        if (c->isa == (int32_t)CRV_ISA_SCALAR && at[1] > 0)
+            continue;
+        result = measure(b, c);
+    }
     return result;
 }
 
-/* Before the work: whether the numbers can be written at its end. A file that is there is
- * left alone until then. */
-static int check_json(const bench_settings *s, report *r)
+/* A filter alone has no preset, and there must be one. */
+static bool is_empty(int32_t method, int32_t preset_index, int32_t filter)
 {
-    bytes work = {s->json, "{}\n", &r->logger};
-    struct stat info;
+    return method == BENCH_METHOD_NONE
+           && (preset_index > 0 || filter < BENCH_FILTER_FIRST);
+}
 
-    if (s->json == NULL || to_stdout(s))
-        return EXIT_DONE;
-    if (stat(s->json, &info) == 0) {
-        if (S_ISREG(info.st_mode) && access(s->json, W_OK) == 0)
-            return EXIT_DONE;
-        report_error(r, "%s: is no file that may be written; choose another name",
-                     s->json);
-        return EXIT_FAILED;
+static int run_scene(bench *b, const bench_scene *on)
+{
+    const bench_choices *o = &b->choices;
+    int result = EXIT_DONE;
+
+    for (int32_t m = 0; m < o->methods.count; m++)
+        for (int32_t p = 0; p < o->presets.count; p++)
+            for (int32_t f = 0; f < o->filters.count; f++)
+                for (int32_t k = 0; k < o->factor_count && result == EXIT_DONE; k++) {
+                    const int32_t method = o->methods.at[m], filter = o->filters.at[f];
+                    bench_case c;
+                    if (is_empty(method, p, filter))
+                        continue;
+                    result = make_options(b, on, method, o->presets.at[p], filter, &c);
+                    c.factor = o->factors[k];
+                    c.options.radius *= (float)c.factor;
+                    if (result == EXIT_DONE)
+                        result = run_ways(b, &c);
+                }
+    return result;
+}
+
+static int run_input(bench *b, const char *input)
+{
+    const int32_t sizes = bench_is_frame(input) ? 1 : b->choices.size_count;
+    scene *model = NULL;
+    int result = EXIT_DONE;
+
+    if (!bench_is_frame(input))
+        result = bench_load_model(input, &model, b->r);
+    for (int32_t i = 0; i < sizes && result == EXIT_DONE; i++) {
+        bench_scene made;
+        result = bench_scene_make(b->settings, input, model, &b->choices.sizes[i], b->r,
+                                  &made);
+        if (result == EXIT_DONE)
+            result = run_scene(b, &made);
+        bench_scene_free(&made);
     }
-    if (output_guarded(write_bytes, &work) != 0)
-        return EXIT_FAILED;
-    unlink(s->json);
+    scene_free(model);
+    return result;
+}
+
+/* The measurements of one scene in one size. */
+static int32_t count_cases(const bench_choices *o)
+{
+    int32_t ways = 0, works = 0;
+
+    for (int32_t i = 0; i < o->isas.count; i++)
+        ways += o->isas.at[i] == (int32_t)CRV_ISA_SCALAR ? 1 : o->structures.count;
+    for (int32_t m = 0; m < o->methods.count; m++)
+        for (int32_t p = 0; p < o->presets.count; p++)
+            for (int32_t f = 0; f < o->filters.count; f++)
+                works += !is_empty(o->methods.at[m], p, o->filters.at[f]);
+    return works * o->factor_count * ways * o->threads.count * o->layouts.count
+           * o->arithmetic.count;
+}
+
+/* Said before the work: how much there is, and about how long it takes. */
+static int announce(bench *b, const arg_texts *inputs)
+{
+    int32_t scenes = 0;
+
+    for (int32_t i = 0; i < inputs->count; i++)
+        scenes += bench_is_frame(inputs->value[i]) ? 1 : b->choices.size_count;
+    b->count = scenes * count_cases(&b->choices);
+    if (b->count == 0) {
+        report_error(b->r, "--method none: there is no filter to measure; give --filter");
+        return EXIT_USAGE;
+    }
+    const double seconds = b->count * b->settings->seconds.value;
+    if (seconds > LONG_SECONDS)
+        report_info(b->r, "%d measurements, about %.0f s; an interrupt ends them",
+                    b->count, seconds);
     return EXIT_DONE;
 }
 
-/* The numbers must not replace what is measured. */
-static int spare_inputs(const bench_settings *s, const views_list *views, report *r)
+static int run_inputs(bench *b, const arg_texts *inputs, const machine *m)
 {
-    int result;
+    int result = EXIT_DONE;
 
-    if (s->json == NULL || to_stdout(s))
-        return EXIT_DONE;
-    result = output_spare_all(s->json, &s->inputs, r);
-    for (int32_t i = 0; i < views->model_count && result == EXIT_DONE; i++)
-        result = output_spare(s->json, views->models[i].path, r);
-    return result == EXIT_DONE ? output_spare(s->json, s->views, r) : result;
+    for (int32_t i = 0; i < inputs->count && result == EXIT_DONE; i++)
+        result = bench_check_input(b->settings, inputs->value[i], b->r);
+    if (result == EXIT_DONE)
+        result = announce(b, inputs);
+    b->started = report_seconds();
+    if (result == EXIT_DONE && !b->rows) {
+        printf("crevice %s, %s, %s, %d threads, cycles from: %s\n\n", crv_version(),
+               m->compiler, m->processor, m->threads, bench_clock_source(&b->clock));
+        bench_print_head(b->device);
+    }
+    for (int32_t i = 0; i < inputs->count && result == EXIT_DONE; i++)
+        result = run_input(b, inputs->value[i]);
+    return result;
+}
+
+static cJSON *describe(bench *b, const machine *m)
+{
+    cJSON *root = cJSON_CreateObject();
+
+    json_add_text(root, "version", crv_version());
+    json_add_text(root, "compiler", m->compiler);
+    json_add_text(root, "processor", m->processor);
+    json_add_number(root, "threads", m->threads);
+    json_add_number(root, "clock_ghz", b->clock.ghz);
+    json_add_text(root, "cycles_from", bench_clock_source(&b->clock));
+    b->rows = cJSON_AddArrayToObject(root, "rows");
+    return root;
 }
 
 static int run(const void *settings, report *r)
 {
+    static const arg_texts courtyard = {.count = 1, .value = {"builtin:courtyard"}};
     const bench_settings *s = settings;
-    bench_choices choices;
-    views_list views = {0};
-    bench b = {.r = r,
-               .settings = s,
-               .choices = &choices,
-               .quiet_logger = report_errors_only(r),
-               .started = report_seconds(),
-               .print = !to_stdout(s),
-               .all_threads = machine_look(s->common.threads.value).threads};
-    int result = check(s, &choices, r);
+    bench b = {.settings = s, .r = r, .device = !device_is_cpu(&s->common)};
+    int result = bench_choose(s, &b.choices, r);
 
+    if (result == EXIT_DONE)
+        result = check_sets(&b);
     if (result != EXIT_DONE)
         return result;
     bench_clock_open(&b.clock, s->repeats.value, s->seconds.value);
-    b.results = cJSON_CreateObject();
-    if (b.results == NULL)
+    const machine m = machine_look(0);
+    cJSON *root = s->json ? describe(&b, &m) : NULL;
+    if (s->json && !b.rows)
         result = report_no_memory(r);
     if (result == EXIT_DONE)
-        result = check_json(s, r);
-    if (result == EXIT_DONE)
-        result =
-            bench_sources_open(&s->inputs, s->views, &s->views_named, s->vfov_deg.value,
-                               &views, &b.sources, &b.source_count, r);
-    if (result == EXIT_DONE)
-        result = spare_inputs(s, &views, r);
-    if (result == EXIT_DONE)
-        result = bench_sources_check(b.sources, b.source_count, r);
-    if (result == EXIT_DONE) {
-        result = run_sections(&b);
-        /* What was measured before something failed may have taken an hour. */
-        if (s->json != NULL) {
-            const int written = write_json(&b);
-            result = result == EXIT_DONE ? written : result;
-        }
+        result = run_inputs(&b, s->inputs.count > 0 ? &s->inputs : &courtyard, &m);
+    /* What was measured before something failed may have taken an hour. */
+    if (s->json && b.done > 0) {
+        const int written = json_print(root, r);
+        result = result == EXIT_DONE ? written : result;
+    } else {
+        cJSON_Delete(root);
     }
-    bench_sources_close(&views, b.sources);
-    cJSON_Delete(b.results);
     bench_clock_close(&b.clock);
     return result;
 }
 
 const command command_bench = {
     .name = "bench",
-    .summary = "how fast the methods are, and how near to what the machine can do",
+    .summary = "how fast the methods are on this machine",
     .synopsis = "[INPUT...] [options]",
     .details =
-        "Measures what the machine can do at most, then the library on frames that are "
-        "ready in memory, and prints tables; medians over repeated runs. Times of a busy "
-        "machine say little: run it alone. With --json all numbers are kept, times in "
-        "ms, rates in millions of pixels a second. With --device vulkan it times the "
-        "steps of each method by the GPU's own clock, unless --only asks for other "
-        "sections.",
+        "Measures the library on frames that are ready in memory, a line for each "
+        "combination: the median of the runs, and the shortest. Times of a busy machine "
+        "say little: run it alone. JSON has `rows`, one for each line: scene, width, "
+        "height, method, preset, filter, device, isa, structure, threads, radius_factor, "
+        "options (what the method reads), runs, ms (median; also ms_min, ms_q1, ms_q3, "
+        "ms_max), cpu_ms (of all threads), mpix_per_s, cycles_per_pixel, bytes_per_pixel "
+        "(of G-buffer and plan), run_allocations and, on a GPU, steps (name, ms).",
     .tables = tables,
     .examples = examples,
     .settings_size = sizeof(bench_settings),

@@ -16,7 +16,7 @@
 
 #include "common/report.h"
 
-enum { RUNS_MAX = 512, RUNS_FEW = 3 };
+enum { RUNS_FEW = 3 };
 #define SHORT_SECONDS 0.1
 
 #ifdef __linux__
@@ -94,7 +94,7 @@ void bench_clock_open(bench_clock *c, int32_t repeats, double seconds)
 {
     *c = (bench_clock){.counter = open_counter(),
                        .ghz = measure_ghz(),
-                       .repeats = repeats < RUNS_MAX ? repeats : RUNS_MAX,
+                       .repeats = repeats < BENCH_RUNS_MAX ? repeats : BENCH_RUNS_MAX,
                        .seconds = seconds};
     if (isnan(read_counter(c)))
         bench_clock_close(c);
@@ -114,7 +114,7 @@ const char *bench_clock_source(const bench_clock *c)
 
 static int compare_doubles(const void *a, const void *b)
 {
-    double x = *(const double *)a, y = *(const double *)b;
+    const double x = *(const double *)a, y = *(const double *)b;
 
     return (x > y) - (x < y);
 }
@@ -122,8 +122,8 @@ static int compare_doubles(const void *a, const void *b)
 /* Of sorted values; between two it is interpolated. */
 static double quantile(const double *sorted, int32_t count, double share)
 {
-    double at = share * (count - 1);
-    int32_t below = (int32_t)at, above = below + 1 < count ? below + 1 : below;
+    const double at = share * (count - 1);
+    const int32_t below = (int32_t)at, above = below + 1 < count ? below + 1 : below;
 
     return sorted[below] + (at - below) * (sorted[above] - sorted[below]);
 }
@@ -140,8 +140,8 @@ typedef struct sample {
 
 static bool take(const bench_clock *c, bool (*run)(void *data), void *data, sample *out)
 {
-    double cycles = read_counter(c), cpu = cpu_seconds(), start = report_seconds();
-    bool good = run(data);
+    const double cycles = read_counter(c), cpu = cpu_seconds(), start = report_seconds();
+    const bool good = run(data);
 
     out->seconds = report_seconds() - start;
     out->cpu = cpu_seconds() - cpu;
@@ -149,16 +149,20 @@ static bool take(const bench_clock *c, bool (*run)(void *data), void *data, samp
     return good;
 }
 
-static void summarise(const sample *samples, int32_t count, bench_time *out)
+static void summarise(const bench_clock *c, const sample *samples, int32_t count,
+                      bench_time *out)
 {
-    double values[RUNS_MAX];
+    double values[BENCH_RUNS_MAX];
 
     for (int32_t i = 0; i < count; i++)
         values[i] = 1e3 * samples[i].cpu;
     out->cpu_ms = bench_median(values, count);
     for (int32_t i = 0; i < count; i++)
         values[i] = samples[i].cycles;
-    out->cycles = isnan(values[0]) ? NAN : bench_median(values, count);
+    if (c->counter >= 0)
+        out->cycles = bench_median(values, count);
+    else
+        out->cycles = c->ghz > 0.0 ? 1e6 * out->cpu_ms * c->ghz : NAN;
     for (int32_t i = 0; i < count; i++)
         values[i] = 1e3 * samples[i].seconds;
     out->ms = bench_median(values, count);
@@ -171,20 +175,20 @@ static void summarise(const sample *samples, int32_t count, bench_time *out)
 
 static bool is_enough(const bench_clock *c, int32_t count, double total)
 {
-    return count == RUNS_MAX || (count >= c->repeats && total >= SHORT_SECONDS)
+    return count == BENCH_RUNS_MAX || (count >= c->repeats && total >= SHORT_SECONDS)
            || (count >= RUNS_FEW && total >= c->seconds);
 }
 
 bool bench_time_runs(const bench_clock *c, bool (*run)(void *data), void *data,
                      bench_time *out)
 {
-    sample samples[RUNS_MAX];
+    sample samples[BENCH_RUNS_MAX];
     int32_t count = 0;
 
     if (!take(c, run, data, &samples[0]))
         return false;
     if (samples[0].seconds >= 0.5 * c->seconds) {
-        summarise(samples, 1, out);
+        summarise(c, samples, 1, out);
         return true;
     }
     for (double total = 0.0; !is_enough(c, count, total); count++) {
@@ -192,25 +196,6 @@ bool bench_time_runs(const bench_clock *c, bool (*run)(void *data), void *data,
             return false;
         total += samples[count].seconds;
     }
-    summarise(samples, count, out);
-    return true;
-}
-
-bool bench_time_difference(const bench_clock *c, bool (*run)(void *data), void *more,
-                           void *less, bench_time *out)
-{
-    sample samples[RUNS_MAX], a, b;
-    int32_t count = 0;
-
-    if (!run(more) || !run(less))
-        return false;
-    for (double total = 0.0; !is_enough(c, count, total); count++) {
-        if (!take(c, run, more, &a) || !take(c, run, less, &b))
-            return false;
-        total += a.seconds + b.seconds;
-        samples[count] =
-            (sample){a.seconds - b.seconds, a.cpu - b.cpu, a.cycles - b.cycles};
-    }
-    summarise(samples, count, out);
+    summarise(c, samples, count, out);
     return true;
 }
