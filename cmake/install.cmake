@@ -10,8 +10,12 @@ include(CMakePackageConfigHelpers)
 
 set(crevice_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/crevice)
 install(TARGETS crevice EXPORT creviceTargets)
+set(crevice_left_out "")
+if(NOT CREVICE_HAS_VULKAN)
+    set(crevice_left_out PATTERN "vulkan.h" EXCLUDE)
+endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/crevice
-    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h" ${crevice_left_out})
 # The shaders as they are, for renderers that take them in; they include shared/*.h.
 if(TARGET crevice_shaders)
     set(crevice_shader_install ${CMAKE_INSTALL_DATADIR}/crevice/shaders)
@@ -21,11 +25,18 @@ if(TARGET crevice_shaders)
     install(FILES ${PROJECT_SOURCE_DIR}/src/shared/params.h ${PROJECT_SOURCE_DIR}/src/shared/push.h
         DESTINATION ${crevice_shader_install}/shared)
 endif()
-install(EXPORT creviceTargets NAMESPACE crevice:: DESTINATION ${crevice_cmake_dir})
+
+# A file of targets for each kind of library, so that both can be installed.
+get_target_property(crevice_type crevice TYPE)
+if(crevice_type STREQUAL "STATIC_LIBRARY")
+    set(crevice_kind static)
+else()
+    set(crevice_kind shared)
+endif()
+install(EXPORT creviceTargets NAMESPACE crevice:: DESTINATION ${crevice_cmake_dir}
+    FILE crevice-${crevice_kind}-targets.cmake)
 
 # A static library leaves its own dependencies to whoever links it.
-get_target_property(crevice_type crevice TYPE)
-set(crevice_find_openmp OFF)
 set(crevice_pc_private -lm)
 foreach(library IN LISTS CMAKE_DL_LIBS) # the Vulkan loader is looked up at run time
     string(APPEND crevice_pc_private " -l${library}")
@@ -34,10 +45,11 @@ if(CREVICE_OPENMP)
     find_package(OpenMP QUIET COMPONENTS C)
     if(OpenMP_C_FOUND)
         string(APPEND crevice_pc_private " ${OpenMP_C_FLAGS}")
-        if(crevice_type STREQUAL "STATIC_LIBRARY")
-            set(crevice_find_openmp ON)
-        endif()
     endif()
+endif()
+set(crevice_has_openmp OFF)
+if(CREVICE_OPENMP AND OpenMP_C_FOUND)
+    set(crevice_has_openmp ON)
 endif()
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/creviceConfig.cmake.in
     ${PROJECT_BINARY_DIR}/creviceConfig.cmake INSTALL_DESTINATION ${crevice_cmake_dir})
@@ -74,8 +86,8 @@ install(FILES ${PROJECT_BINARY_DIR}/crevice.pc
     DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
-if(TARGET crevice_tool)
-    # The tool finds its library beside itself, wherever the tree lies.
+if(TARGET crevice_tool AND NOT CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+    # The tool finds its library beside itself, wherever the tree lies; in /usr the system does.
     if(NOT IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}" AND NOT IS_ABSOLUTE "${CMAKE_INSTALL_BINDIR}")
         file(RELATIVE_PATH crevice_rpath /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
         set_target_properties(crevice_tool PROPERTIES INSTALL_RPATH "$ORIGIN/${crevice_rpath}")

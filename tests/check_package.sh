@@ -5,9 +5,10 @@
 # sources in. Usage: check_package.sh SOURCE WORK CC shared|static
 set -eu
 source=$1 work=$2 cc=$3 kind=$4
+# The two kinds are built with two generators, so that both are tried.
 case $kind in
-shared) shared=ON ;;
-static) shared=OFF ;;
+shared) shared=ON generator=Ninja ;;
+static) shared=OFF generator='Unix Makefiles' ;;
 *)
     echo "unknown kind $kind" >&2
     exit 2
@@ -19,20 +20,30 @@ mkdir -p "$work"
 
 configure()
 {
-    cmake -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_COMPILER="$cc" \
-        --log-level=WARNING "$@" >/dev/null
+    cmake -G "$generator" -DCMAKE_BUILD_TYPE=Release --log-level=WARNING "$@" >/dev/null
+}
+
+build()
+{
+    cmake --build "$1" -j "$(nproc 2>/dev/null || echo 2)" >"$work/build.log" \
+        || { cat "$work/build.log" >&2; return 1; }
 }
 
 echo "-- $kind library, installed"
-configure -S "$source" -B "$work/build" -DBUILD_SHARED_LIBS=$shared \
+configure -S "$source" -B "$work/build" -DBUILD_SHARED_LIBS=$shared -DCMAKE_C_COMPILER="$cc" \
     -DCREVICE_BUILD_TOOLS=OFF -DCREVICE_BUILD_TESTS=OFF -DCREVICE_BUILD_EXAMPLES=OFF \
     -DCMAKE_INSTALL_PREFIX="$work/first prefix"
-cmake --build "$work/build" -- --quiet
+build "$work/build"
 cmake --install "$work/build" >/dev/null
 mv "$work/first prefix" "$work/prefix"
 
 # Nothing but the public headers, and no path of the build, may have got out.
+vulkan=$(sed -n 's/^set(crevice_HAS_VULKAN \(.*\))$/\1/p' \
+    "$work/prefix"/lib*/cmake/crevice/creviceConfig.cmake "$work/prefix"/lib/*/cmake/crevice/creviceConfig.cmake 2>/dev/null)
 (cd "$source/include" && find crevice -name '*.h' | sort) >"$work/expected"
+if [ "$vulkan" != ON ]; then
+    sed -i '/vulkan\.h$/d' "$work/expected"
+fi
 (cd "$work/prefix/include" && find . -type f | sed 's|^\./||' | sort) >"$work/installed"
 diff "$work/expected" "$work/installed"
 if grep -rIlF -e "$source" -e "$work" "$work/prefix"; then
@@ -50,9 +61,16 @@ if [ -d "$shaders" ]; then
 fi
 
 echo "-- find_package"
-configure -S "$consumer" -B "$work/consumer_cmake" -DCMAKE_PREFIX_PATH="$work/prefix"
-cmake --build "$work/consumer_cmake" -- --quiet
+configure -S "$consumer" -B "$work/consumer_cmake" -DCMAKE_PREFIX_PATH="$work/prefix" \
+    -DCMAKE_C_COMPILER="$cc"
+build "$work/consumer_cmake"
 "$work/consumer_cmake/consumer"
+
+echo "-- find_package in a project of C++ alone"
+configure -S "$consumer" -B "$work/consumer_cxx" -DCMAKE_PREFIX_PATH="$work/prefix" \
+    -DCONSUMER_LANGUAGE=CXX
+build "$work/consumer_cxx"
+"$work/consumer_cxx/consumer"
 
 echo "-- pkg-config"
 pc=$(find "$work/prefix" -name crevice.pc)
@@ -71,6 +89,10 @@ fi
 
 echo "-- add_subdirectory"
 configure -S "$consumer" -B "$work/consumer_source" -DCREVICE_SOURCE="$source" \
-    -DBUILD_SHARED_LIBS=$shared
-cmake --build "$work/consumer_source" -- --quiet
+    -DBUILD_SHARED_LIBS=$shared -DCMAKE_C_COMPILER="$cc"
+build "$work/consumer_source"
 "$work/consumer_source/consumer"
+
+echo "-- add_subdirectory leaves its parent's settings alone"
+configure -S "$consumer" -B "$work/consumer_parent" -DCREVICE_SOURCE="$source" \
+    -DCMAKE_BUILD_TYPE= -DCONSUMER_BUILD_TYPE_UNSET=ON -DCMAKE_C_COMPILER="$cc"
