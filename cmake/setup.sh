@@ -23,13 +23,15 @@ needs_tests='
 g++         g++
 python3     python3
 spirv-val   spirv-tools
+clang-format  clang-format
 -           libcmocka-dev
 -           mesa-vulkan-drivers
 -           vulkan-validationlayers
 '
-needs_checks='
+
+# What ./check --all needs beyond that.
+needs_all='
 clang            clang
-clang-format     clang-format
 chromium         chromium
 llvm-symbolizer  llvm
 -                libclang-rt-dev

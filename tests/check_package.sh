@@ -38,8 +38,8 @@ cmake --install "$work/build" >/dev/null
 mv "$work/first prefix" "$work/prefix"
 
 # Nothing but the public headers, and no path of the build, may have got out.
-vulkan=$(sed -n 's/^set(crevice_HAS_VULKAN \(.*\))$/\1/p' \
-    "$work/prefix"/lib*/cmake/crevice/creviceConfig.cmake "$work/prefix"/lib/*/cmake/crevice/creviceConfig.cmake 2>/dev/null)
+vulkan=$(find "$work/prefix" -name creviceConfig.cmake \
+    -exec sed -n 's/^set(crevice_HAS_VULKAN \(.*\))$/\1/p' {} +)
 (cd "$source/include" && find crevice -name '*.h' | sort) >"$work/expected"
 if [ "$vulkan" != ON ]; then
     sed -i '/vulkan\.h$/d' "$work/expected"
