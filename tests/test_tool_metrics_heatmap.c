@@ -17,10 +17,10 @@ static void assert_near(double value, double expected, double tolerance)
 }
 
 /* Of linear sRGB: the middle row of the matrix to XYZ in IEC 61966-2-1. */
-static double luminance(const float color[3])
+static double luminance(const float colour[3])
 {
-    return 0.2126729 * (double)color[0] + 0.7151522 * (double)color[1]
-           + 0.0721750 * (double)color[2];
+    return 0.2126729 * (double)colour[0] + 0.7151522 * (double)colour[1]
+           + 0.0721750 * (double)colour[2];
 }
 
 /* The inverse of L* = 116 Y^(1/3) - 16. */
@@ -39,18 +39,18 @@ static void test_ends_and_middle(void **state)
 {
     const double blue[3] = {0.00647083, 0.08918469, 0.27470854};
     const double orange[3] = {0.23694131, 0.04787221, 0.00494601};
-    float color[3];
+    float colour[3];
 
     (void)state;
-    heatmap_color(0.0, color);
+    heatmap_colour(0.0, colour);
     for (int i = 0; i < 3; i++)
-        assert_near((double)color[i], 0.9244030, printed_digits);
-    heatmap_color(-1.0, color);
+        assert_near((double)colour[i], 0.9244030, printed_digits);
+    heatmap_colour(-1.0, colour);
     for (int i = 0; i < 3; i++)
-        assert_near((double)color[i], blue[i], printed_digits);
-    heatmap_color(1.0, color);
+        assert_near((double)colour[i], blue[i], printed_digits);
+    heatmap_colour(1.0, colour);
     for (int i = 0; i < 3; i++)
-        assert_near((double)color[i], orange[i], printed_digits);
+        assert_near((double)colour[i], orange[i], printed_digits);
 }
 
 static void test_past_the_ends(void **state)
@@ -59,8 +59,8 @@ static void test_past_the_ends(void **state)
 
     (void)state;
     for (int side = -1; side <= 1; side += 2) {
-        heatmap_color(side, end);
-        heatmap_color(side * 1e30, past);
+        heatmap_colour(side, end);
+        heatmap_colour(side * 1e30, past);
         for (int i = 0; i < 3; i++)
             assert_near((double)past[i], (double)end[i], 0.0);
     }
@@ -78,8 +78,8 @@ static void test_lightness(void **state)
         double expected = luminance_of_lightness(97.0 - 62.0 * t);
         float above[3], below[3];
 
-        heatmap_color(t, above);
-        heatmap_color(-t, below);
+        heatmap_colour(t, above);
+        heatmap_colour(-t, below);
         assert_near(luminance(above), expected, printed_digits);
         assert_near(luminance(below), expected, printed_digits);
         assert_true(luminance(above) < former && luminance(below) < former);
@@ -89,15 +89,15 @@ static void test_lightness(void **state)
 
 /* What people without red or green receptors see, after Vienot, Brettel and Mollon 1999:
  * red and green become this mixture, blue gets the difference times the last number. */
-static void see(const float color[3], const double eye[3], double out[2])
+static void see(const float colour[3], const double eye[3], double out[2])
 {
-    double red = (double)color[0], green = (double)color[1], blue = (double)color[2];
+    double red = (double)colour[0], green = (double)colour[1], blue = (double)colour[2];
 
     out[0] = eye[0] * red + eye[1] * green;
     out[1] = blue + eye[2] * (red - green);
 }
 
-static void test_color_blind(void **state)
+static void test_colour_blind(void **state)
 {
     const double eyes[2][3] = {{0.11238, 0.88762, 0.00401}, {0.29275, 0.70725, -0.02234}};
 
@@ -107,8 +107,8 @@ static void test_color_blind(void **state)
             float above[3], below[3];
             double seen_above[2], seen_below[2];
 
-            heatmap_color(t, above);
-            heatmap_color(-t, below);
+            heatmap_colour(t, above);
+            heatmap_colour(-t, below);
             see(above, eyes[e], seen_above);
             see(below, eyes[e], seen_below);
             /* Yellowish on one side, bluish on the other. */
@@ -118,7 +118,7 @@ static void test_color_blind(void **state)
     }
 }
 
-/* Each error gets the color of its part of the scale; what is left out gets grey. */
+/* Each error gets the colour of its part of the scale; what is left out gets grey. */
 static void test_fill(void **state)
 {
     const float a[6] = {0.5f, 0.75f, 0.25f, 0.625f, NAN, 1.0f};
@@ -130,7 +130,7 @@ static void test_fill(void **state)
     (void)state;
     heatmap_fill(a, b, mask, 6, 0.25, red, green, blue);
     for (int i = 0; i < 6; i++) {
-        heatmap_color(parts[i], expected);
+        heatmap_colour(parts[i], expected);
         for (int c = 0; c < 3 && !mask[i]; c++)
             expected[c] = heatmap_background;
         assert_near((double)red[i], (double)expected[0], 0.0);
@@ -147,7 +147,7 @@ int main(void)
         cmocka_unit_test(test_ends_and_middle),
         cmocka_unit_test(test_past_the_ends),
         cmocka_unit_test(test_lightness),
-        cmocka_unit_test(test_color_blind),
+        cmocka_unit_test(test_colour_blind),
         cmocka_unit_test(test_fill),
     };
 

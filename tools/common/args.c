@@ -38,13 +38,13 @@ enum { FLAGS_MAX = 128 };
 bool args_is_library_option(const char *key)
 {
     return strcmp(key, "method") == 0 || strcmp(key, "preset") == 0
-           || strcmp(key, "filter") == 0 || crv_option_find(key) != NULL;
+           || strcmp(key, "filter") == 0 || crv_option_find(key);
 }
 
 /* The row of this flag ("--size" or "-o"), its first `length` bytes counting. */
 static const arg *find_flag(const command *c, const char *flag, size_t length)
 {
-    for (size_t t = 0; c->tables[t] != NULL; t++) {
+    for (size_t t = 0; c->tables[t]; t++) {
         for (size_t i = 0; i < c->tables[t]->count; i++) {
             const arg *row = &c->tables[t]->rows[i];
             if (strlen(row->name) == length && row->name[0] == '-'
@@ -59,7 +59,7 @@ static const arg *find_flag(const command *c, const char *flag, size_t length)
 
 static const arg *find_positional(const command *c, size_t index)
 {
-    for (size_t t = 0; c->tables[t] != NULL; t++) {
+    for (size_t t = 0; c->tables[t]; t++) {
         for (size_t i = 0; i < c->tables[t]->count; i++) {
             const arg *row = &c->tables[t]->rows[i];
             if (row->name[0] != '-' && (index-- == 0 || row->type == ARG_TEXTS))
@@ -75,9 +75,8 @@ static int unknown_flag(const command *c, const char *flag, report *r)
     const char *names[FLAGS_MAX] = {"method", "preset", "filter"};
     char keys[FLAGS_MAX][64];
     int32_t count = c->library_options ? 3 : 0;
-    const char *nearest;
 
-    for (size_t t = 0; c->tables[t] != NULL; t++)
+    for (size_t t = 0; c->tables[t]; t++)
         for (size_t i = 0; i < c->tables[t]->count && count < FLAGS_MAX; i++)
             if (c->tables[t]->rows[i].name[0] == '-')
                 names[count++] = c->tables[t]->rows[i].name + 2;
@@ -90,8 +89,8 @@ static int unknown_flag(const command *c, const char *flag, report *r)
         names[count] = keys[count];
         count++;
     }
-    nearest = crv_nearest_name(flag + strspn(flag, "-"), names, count);
-    if (nearest != NULL)
+    const char *nearest = crv_nearest_name(flag + strspn(flag, "-"), names, count);
+    if (nearest)
         report_error(r, "%s: no such option; did you mean --%s?", flag, nearest);
     else
         report_error(r, "%s: no such option; see `crevice help %s`", flag, c->name);
@@ -106,7 +105,7 @@ static int wrong_value(const arg *row, const char *text, report *r)
     args_describe_values(row, values, sizeof values);
     if (row->type == ARG_CHOICE)
         nearest = crv_nearest_name(text, row->choices, -1);
-    if (nearest != NULL)
+    if (nearest)
         report_error(r, "%s: \"%s\" is not one of %s; did you mean %s?", row->name, text,
                      values, nearest);
     else
@@ -124,9 +123,9 @@ static void mark_given(const arg *row, void *settings)
 
 static void set_defaults(const command *c, void *settings)
 {
-    for (size_t t = 0; c->tables[t] != NULL; t++)
+    for (size_t t = 0; c->tables[t]; t++)
         for (size_t i = 0; i < c->tables[t]->count; i++)
-            if (c->tables[t]->rows[i].initial != NULL)
+            if (c->tables[t]->rows[i].initial)
                 args_set_value(&c->tables[t]->rows[i], c->tables[t]->rows[i].initial,
                                settings);
 }
@@ -134,7 +133,7 @@ static void set_defaults(const command *c, void *settings)
 /* The value of the last `flag` among the arguments; NULL where there is none. */
 static const char *last_value(const char *flag, int argc, char **argv)
 {
-    size_t length = strlen(flag);
+    const size_t length = strlen(flag);
     const char *value = NULL;
 
     for (int i = 0; i < argc && strcmp(argv[i], "--") != 0; i++) {
@@ -152,8 +151,7 @@ static const char *method_name(const command *c, int argc, char **argv)
 {
     const char *name = last_value("--method", argc, argv);
 
-    if (name == NULL && c->method_flag != NULL
-        && last_value(c->method_flag, argc, argv) != NULL)
+    if (!name && c->method_flag && last_value(c->method_flag, argc, argv))
         name = c->method_of_flag;
     return name;
 }
@@ -161,10 +159,10 @@ static const char *method_name(const command *c, int argc, char **argv)
 const crv_method *args_method(const command *c, int argc, char **argv)
 {
     const char *name = method_name(c, argc, argv);
-    const crv_method *method = name != NULL ? crv_method_find(name) : NULL;
+    const crv_method *method = name ? crv_method_find(name) : NULL;
     crv_options options;
 
-    if (method == NULL && crv_options_init(&options, sizeof options, NULL) == CRV_OK)
+    if (!method && crv_options_init(&options, sizeof options, NULL) == CRV_OK)
         method = options.method;
     return method;
 }
@@ -178,7 +176,7 @@ static int set_method(const command *c, int argc, char **argv, common_settings *
     if (!report_ok(r, crv_options_init(&common->options, sizeof common->options, NULL),
                    "options"))
         return EXIT_USAGE;
-    if (name == NULL)
+    if (!name)
         return EXIT_DONE;
     if (crv_options_set(&common->options, "method", name, &r->logger) == CRV_OK
         && crv_options_init(&common->options, sizeof common->options, name) == CRV_OK)
@@ -193,9 +191,8 @@ static int set_preset(int argc, char **argv, common_settings *common, report *r)
 {
     const char *name = last_value("--preset", argc, argv);
     const char *names[CRV_PRESET_COUNT];
-    const char *nearest;
 
-    for (int i = 0; name != NULL && i < CRV_PRESET_COUNT; i++) {
+    for (int i = 0; name && i < CRV_PRESET_COUNT; i++) {
         names[i] = crv_preset_name((crv_preset)i);
         if (strcmp(names[i], name) == 0)
             return report_ok(r, crv_options_preset(&common->options, (crv_preset)i),
@@ -203,10 +200,10 @@ static int set_preset(int argc, char **argv, common_settings *common, report *r)
                        ? EXIT_DONE
                        : EXIT_USAGE;
     }
-    if (name == NULL)
+    if (!name)
         return EXIT_DONE;
-    nearest = crv_nearest_name(name, names, CRV_PRESET_COUNT);
-    if (nearest != NULL)
+    const char *nearest = crv_nearest_name(name, names, CRV_PRESET_COUNT);
+    if (nearest)
         report_error(r, "--preset: no preset \"%s\"; did you mean %s?", name, nearest);
     else
         report_error(r, "--preset: no preset \"%s\"; see `crevice methods`", name);
@@ -217,17 +214,15 @@ static int set_library_option(const char *flag, size_t length, const char *text,
                               common_settings *common, report *r)
 {
     char key[64];
-    const crv_option *option;
 
     memcpy(key, flag + 2, length - 2);
     key[length - 2] = '\0';
     if (strcmp(key, "method") == 0 || strcmp(key, "preset") == 0)
         return EXIT_DONE; /* set_method() and set_preset() have seen to it */
-    option = crv_option_find(key);
+    const crv_option *option = crv_option_find(key);
     if (strcmp(key, "radius") == 0)
         common->radius_given = true;
-    if (crv_options_set(&common->options, option != NULL ? option->key : key, text,
-                        &r->logger)
+    if (crv_options_set(&common->options, option ? option->key : key, text, &r->logger)
         == CRV_OK)
         return EXIT_DONE;
     if (r->errors == 0)
@@ -241,26 +236,26 @@ static int parse_flag(const command *c, int argc, char **argv, int *i, void *set
 {
     const char *flag = argv[*i];
     const char *equals = strncmp(flag, "--", 2) == 0 ? strchr(flag, '=') : NULL;
-    size_t length = equals != NULL ? (size_t)(equals - flag) : strlen(flag);
+    const size_t length = equals ? (size_t)(equals - flag) : strlen(flag);
     const arg *row = find_flag(c, flag, length);
-    const char *text = equals != NULL ? equals + 1 : NULL;
+    const char *text = equals ? equals + 1 : NULL;
     char key[64] = "";
 
-    if (row == NULL && c->library_options && length > 2 && length < sizeof key
+    if (!row && c->library_options && length > 2 && length < sizeof key
         && flag[1] == '-') {
         memcpy(key, flag + 2, length - 2);
         if (!args_is_library_option(key))
             key[0] = '\0';
     }
-    if (row == NULL && key[0] == '\0')
+    if (!row && key[0] == '\0')
         return unknown_flag(c, flag, r);
-    if (row != NULL && row->type == ARG_FLAG) {
-        if (text == NULL)
+    if (row && row->type == ARG_FLAG) {
+        if (!text)
             return args_set_value(row, "", settings) ? EXIT_DONE : EXIT_USAGE;
         report_error(r, "%s: takes no value; leave out \"=%s\"", row->name, text);
         return EXIT_USAGE;
     }
-    if (text == NULL) {
+    if (!text) {
         /* A following option is a forgotten value, not a file of that name. */
         if (*i + 1 >= argc || strncmp(argv[*i + 1], "--", 2) == 0) {
             report_error(r, "%s: its value is missing; see `crevice help %s`", flag,
@@ -269,7 +264,7 @@ static int parse_flag(const command *c, int argc, char **argv, int *i, void *set
         }
         text = argv[++*i];
     }
-    if (row == NULL)
+    if (!row)
         return set_library_option(flag, length, text, settings, r);
     if (!args_set_value(row, text, settings))
         return wrong_value(row, text, r);
@@ -282,7 +277,7 @@ static int parse_positional(const command *c, const char *text, size_t *index,
 {
     const arg *row = find_positional(c, *index);
 
-    if (row == NULL) {
+    if (!row) {
         report_error(r, "\"%s\": one argument too many; see `crevice help %s`", text,
                      c->name);
         return EXIT_USAGE;
@@ -305,13 +300,14 @@ static int parse_positional(const command *c, const char *text, size_t *index,
 
 static bool has_text(const arg *row, const void *member)
 {
-    return row->type == ARG_TEXTS ? ((const arg_texts *)member)->count > 0
-                                  : *(const char *const *)member != NULL;
+    if (row->type == ARG_TEXTS)
+        return ((const arg_texts *)member)->count > 0;
+    return *(const char *const *)member;
 }
 
 static int check_required(const command *c, const void *settings, report *r)
 {
-    for (size_t t = 0; c->tables[t] != NULL; t++) {
+    for (size_t t = 0; c->tables[t]; t++) {
         for (size_t i = 0; i < c->tables[t]->count; i++) {
             const arg *row = &c->tables[t]->rows[i];
             const void *member = (const char *)settings + row->offset;

@@ -37,7 +37,7 @@ void device_list_isas(char *out, size_t size)
     size_t used = 0;
 
     out[0] = '\0';
-    for (int i = CRV_ISA_SCALAR; crv_isa_name((crv_isa)i) != NULL && used < size; i++)
+    for (int i = CRV_ISA_SCALAR; crv_isa_name((crv_isa)i) && used < size; i++)
         if (available >> i & 1)
             used += (size_t)snprintf(out + used, size - used, "%s%s",
                                      used > 0 ? ", " : "", crv_isa_name((crv_isa)i));
@@ -45,7 +45,7 @@ void device_list_isas(char *out, size_t size)
 
 void device_describe(const common_settings *common, text *out)
 {
-    if (common->device != NULL)
+    if (common->device)
         text_addf(out, " --device %s", common->device);
     if (common->isa.value > 0)
         text_addf(out, " --isa %s", isa_choices[common->isa.value]);
@@ -55,7 +55,7 @@ void device_describe(const common_settings *common, text *out)
 
 bool device_is_cpu(const common_settings *common)
 {
-    return common->device == NULL || strcmp(common->device, "cpu") == 0;
+    return !common->device || strcmp(common->device, "cpu") == 0;
 }
 
 /* Reads --device; false where it names nothing. */
@@ -63,7 +63,7 @@ static bool parse_device(const char *name, crv_context_desc *desc)
 {
     int index = 0, end = 0;
 
-    if (name == NULL || strcmp(name, "cpu") == 0)
+    if (!name || strcmp(name, "cpu") == 0)
         return true;
     desc->device = CRV_DEVICE_VULKAN;
     if (strcmp(name, "vulkan") == 0)
@@ -108,7 +108,7 @@ int device_context_in(const common_settings *common, const crv_logger *logger,
     desc.exact = common->exact;
     desc.depth_layout = common->depth_layout;
     desc.half_filters = common->half_filters;
-    if (allocator != NULL)
+    if (allocator)
         desc.allocator = *allocator;
     if (choose_device(common, &desc, r) != EXIT_DONE)
         return EXIT_USAGE;

@@ -44,10 +44,10 @@ void estimate_fit(estimator *e, const crv_gbuffer_desc *desc)
 
 int estimate_plan(estimator *e, const crv_options *options, report *r)
 {
-    bool same_radius =
+    const bool same_radius =
         !(e->options.radius < options->radius) && !(e->options.radius > options->radius);
 
-    if (e->plan != NULL && same_radius)
+    if (e->plan && same_radius)
         return EXIT_DONE;
     crv_plan_destroy(e->plan);
     e->plan = NULL;
@@ -62,7 +62,7 @@ int estimate_depth(estimator *e, float **out, report *r)
     float *depth = malloc((size_t)e->desc.width * (size_t)e->desc.height * sizeof *depth);
     crv_image view = crv_image_packed(depth, e->desc.width, e->desc.height, 1);
 
-    if (depth == NULL)
+    if (!depth)
         return report_no_memory(r);
     if (!report_ok(r, crv_gbuffer_get_depth(e->gbuffer, 0, &view), "depth")) {
         free(depth);
@@ -76,7 +76,7 @@ static bool reads(const crv_options *o, const char *key)
 {
     const crv_option *option = crv_option_find(key);
 
-    return option != NULL && crv_option_applies(option, o->method, o->filter) != 0;
+    return option && crv_option_applies(option, o->method, o->filter) != 0;
 }
 
 bool estimate_is_of_relief(const crv_options *options)
@@ -96,8 +96,7 @@ static void tell(const estimator *e, double seconds, report *r)
     else if (reads(o, "samples"))
         snprintf(samples, sizeof samples, " %d samples", o->samples);
     report_info(r, "%s%s, radius %g, %s: %.2f s", o->method->name, samples,
-                (double)o->radius, o->filter != NULL ? o->filter->name : "no filter",
-                seconds);
+                (double)o->radius, o->filter ? o->filter->name : "no filter", seconds);
     for (int32_t i = 0; i < crv_option_count(); i++)
         if (crv_option_applies(crv_option_at(i), o->method, o->filter))
             report_detail(r, "  %s %g", crv_option_at(i)->key,
@@ -107,14 +106,13 @@ static void tell(const estimator *e, double seconds, report *r)
 int estimate_run(estimator *e, io_image *out, report *r)
 {
     static const char *const names[] = {"AO"};
-    int32_t width = e->desc.width - e->desc.guard_left - e->desc.guard_right;
-    int32_t height = e->desc.height - e->desc.guard_top - e->desc.guard_bottom;
-    double start = report_seconds();
-    crv_image result;
+    const int32_t width = e->desc.width - e->desc.guard_left - e->desc.guard_right;
+    const int32_t height = e->desc.height - e->desc.guard_top - e->desc.guard_bottom;
+    const double start = report_seconds();
 
     if (io_image_init(out, width, height, names, 1, &r->logger) != 0)
         return EXIT_FAILED;
-    result = crv_image_packed(out->channels[0].data, width, height, 1);
+    crv_image result = crv_image_packed(out->channels[0].data, width, height, 1);
     if (!report_ok(r, crv_plan_run(e->plan, e->gbuffer, &result), "estimation")) {
         io_image_free(out);
         return EXIT_FAILED;

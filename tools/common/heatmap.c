@@ -19,22 +19,22 @@ static double lab_inverse(double f)
     return f > delta ? f * f * f : 3.0 * delta * delta * (f - 4.0 / 29.0);
 }
 
-void heatmap_color(double t, float linear[3])
+void heatmap_colour(double t, float linear[3])
 {
     /* XYZ of D65 white to linear sRGB, IEC 61966-2-1. */
     static const double to_rgb[3][3] = {{3.2404542, -1.5371385, -0.4985314},
                                         {-0.9692660, 1.8760108, 0.0415560},
                                         {0.0556434, -0.2040259, 1.0572252}};
-    double size = fmin(fabs(t), 1.0);
+    const double size = fmin(fabs(t), 1.0);
     const double *end = t < 0.0 ? blue_end : orange_end;
-    double lightness = white_lightness + (end_lightness - white_lightness) * size;
-    double fy = (lightness + 16.0) / 116.0;
-    double x = 0.9504700 * lab_inverse(fy + end[0] * size / 500.0);
-    double y = lab_inverse(fy);
-    double z = 1.0888300 * lab_inverse(fy - end[1] * size / 200.0);
+    const double lightness = white_lightness + (end_lightness - white_lightness) * size;
+    const double fy = (lightness + 16.0) / 116.0;
+    const double x = 0.9504700 * lab_inverse(fy + end[0] * size / 500.0);
+    const double y = lab_inverse(fy);
+    const double z = 1.0888300 * lab_inverse(fy - end[1] * size / 200.0);
 
     for (int i = 0; i < 3; i++) {
-        double value = to_rgb[i][0] * x + to_rgb[i][1] * y + to_rgb[i][2] * z;
+        const double value = to_rgb[i][0] * x + to_rgb[i][1] * y + to_rgb[i][2] * z;
         linear[i] = (float)fmin(fmax(value, 0.0), 1.0);
     }
 }
@@ -43,12 +43,12 @@ void heatmap_fill(const float *a, const float *b, const uint8_t *mask, size_t co
                   double scale, float *red, float *green, float *blue)
 {
     for (size_t i = 0; i < count; i++) {
-        float color[3] = {heatmap_background, heatmap_background, heatmap_background};
+        float colour[3] = {heatmap_background, heatmap_background, heatmap_background};
 
-        if (mask == NULL || mask[i])
-            heatmap_color(((double)a[i] - (double)b[i]) / scale, color);
-        red[i] = color[0];
-        green[i] = color[1];
-        blue[i] = color[2];
+        if (!mask || mask[i])
+            heatmap_colour(((double)a[i] - (double)b[i]) / scale, colour);
+        red[i] = colour[0];
+        green[i] = colour[1];
+        blue[i] = colour[2];
     }
 }

@@ -12,7 +12,7 @@
 
 /* The colour of an error of `t` scales, linear light, each in [0, 1]. Past -1 and 1 it is
  * that of the end. */
-void heatmap_color(double t, float linear[3]);
+void heatmap_colour(double t, float linear[3]);
 
 /* What pixels are painted that are not compared: a grey, which no error is. */
 extern const float heatmap_background; /* linear light */

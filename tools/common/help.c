@@ -11,7 +11,7 @@ static void write_wrapped(FILE *out, const char *text, int column, int indent)
     bool first = true;
 
     while (*text != '\0') {
-        int length = (int)strcspn(text, " ");
+        const int length = (int)strcspn(text, " ");
 
         if (!first && column + 1 + length > WIDTH) {
             fprintf(out, "\n%*s", indent, "");
@@ -29,7 +29,7 @@ static void write_wrapped(FILE *out, const char *text, int column, int indent)
 
 static void write_entry(FILE *out, const char *head, const char *text)
 {
-    int used = fprintf(out, "  %s", head);
+    const int used = fprintf(out, "  %s", head);
 
     if (used < COLUMN - 1)
         fprintf(out, "%*s", COLUMN - used, "");
@@ -41,19 +41,18 @@ static void write_entry(FILE *out, const char *head, const char *text)
 static void write_row(FILE *out, const arg *row)
 {
     char shorthand[8] = "", head[128], values[256], text[ENTRY_SIZE];
-    const char *initial = row->computed != NULL ? row->computed : row->initial;
-    bool has_values;
+    const char *initial = row->computed ? row->computed : row->initial;
 
     if (row->short_name != 0)
         snprintf(shorthand, sizeof shorthand, "-%c, ", row->short_name);
-    snprintf(head, sizeof head, "%s%s%s%s", shorthand, row->name,
-             row->value != NULL ? " " : "", row->value != NULL ? row->value : "");
+    snprintf(head, sizeof head, "%s%s%s%s", shorthand, row->name, row->value ? " " : "",
+             row->value ? row->value : "");
     args_describe_values(row, values, sizeof values);
-    has_values = values[0] != '\0';
+    const bool has_values = values[0] != '\0';
     snprintf(text, sizeof text, "%s%s%s%s%s%s%s", row->help,
-             has_values || initial != NULL ? " [" : "", values,
-             has_values && initial != NULL ? "; " : "", initial != NULL ? "default " : "",
-             initial != NULL ? initial : "", has_values || initial != NULL ? "]" : "");
+             has_values || initial ? " [" : "", values, has_values && initial ? "; " : "",
+             initial ? "default " : "", initial ? initial : "",
+             has_values || initial ? "]" : "");
     write_entry(out, head, text);
 }
 
@@ -73,7 +72,7 @@ void help_option_values(const crv_option *option, char *out, size_t size)
         snprintf(out, size, "on|off");
     } else if (option->type == CRV_OPTION_CHOICE) {
         out[0] = '\0';
-        for (int32_t i = 0; option->choices[i] != NULL && used < size; i++)
+        for (int32_t i = 0; option->choices[i] && used < size; i++)
             used += (size_t)snprintf(out + used, size - used, "%s%s", i == 0 ? "" : "|",
                                      option->choices[i]);
     } else {
@@ -86,7 +85,7 @@ double help_default_value(const crv_option *option, const crv_method *method)
 {
     crv_options options;
 
-    if (crv_options_init(&options, sizeof options, method != NULL ? method->name : NULL)
+    if (crv_options_init(&options, sizeof options, method ? method->name : NULL)
         != CRV_OK)
         return option->default_value;
     return crv_options_get(&options, option);
@@ -95,7 +94,7 @@ double help_default_value(const crv_option *option, const crv_method *method)
 void help_option_default(const crv_option *option, const crv_method *method, char *out,
                          size_t size)
 {
-    double value = help_default_value(option, method);
+    const double value = help_default_value(option, method);
 
     if (option->type == CRV_OPTION_BOOL)
         snprintf(out, size, "%s", value > 0.0 ? "on" : "off");
@@ -123,7 +122,8 @@ void help_library_option(FILE *out, const crv_option *option, const crv_method *
 void help_presets(FILE *out, const crv_method *method, int indent)
 {
     for (int i = 0; i < CRV_PRESET_COUNT; i++) {
-        int column = fprintf(out, "%*s%-8s", indent, "", crv_preset_name((crv_preset)i));
+        const int column =
+            fprintf(out, "%*s%-8s", indent, "", crv_preset_name((crv_preset)i));
         write_wrapped(out, crv_preset_text(method, (crv_preset)i), column, column);
     }
 }
@@ -174,11 +174,11 @@ void help_command(FILE *out, const command *c, const crv_method *method)
 {
     fprintf(out, "usage: crevice %s %s\n\n", c->name, c->synopsis);
     write_wrapped(out, c->summary, 0, 0);
-    if (c->details != NULL) {
+    if (c->details) {
         fputc('\n', out);
         write_wrapped(out, c->details, 0, 0);
     }
-    for (size_t t = 0; c->tables[t] != NULL; t++) {
+    for (size_t t = 0; c->tables[t]; t++) {
         fprintf(out, "\n%s:\n", c->tables[t]->title);
         for (size_t i = 0; i < c->tables[t]->count; i++)
             write_row(out, &c->tables[t]->rows[i]);
@@ -186,7 +186,7 @@ void help_command(FILE *out, const command *c, const crv_method *method)
     if (c->library_options)
         write_library_options(out, c->name, method);
     fprintf(out, "\nExamples:\n");
-    for (size_t i = 0; c->examples[i] != NULL; i += 2)
+    for (size_t i = 0; c->examples[i]; i += 2)
         fprintf(out, "  # %s\n  %s\n", c->examples[i], c->examples[i + 1]);
 }
 
@@ -194,7 +194,7 @@ void help_overview(FILE *out, const command *const *commands)
 {
     fprintf(out, "usage: crevice COMMAND ...\n\n"
                  "Ambient occlusion from meshes, and from depth and normal passes.\n\n");
-    for (size_t i = 0; commands[i] != NULL; i++) {
+    for (size_t i = 0; commands[i]; i++) {
         char head[32];
         snprintf(head, sizeof head, "%-10s", commands[i]->name);
         fprintf(out, "  %s %s\n", head, commands[i]->summary);

@@ -14,16 +14,16 @@ static void find_processor(char *out, size_t size)
     char line[512];
 
     snprintf(out, size, "unknown processor");
-    while (file != NULL && fgets(line, sizeof line, file) != NULL) {
+    while (file && fgets(line, sizeof line, file)) {
         char *colon = strchr(line, ':');
-        if (strncmp(line, "model name", 10) != 0 || colon == NULL)
+        if (strncmp(line, "model name", 10) != 0 || !colon)
             continue;
         colon += 1 + strspn(colon + 1, " \t");
         colon[strcspn(colon, "\n")] = '\0';
         snprintf(out, size, "%s", colon);
         break;
     }
-    if (file != NULL)
+    if (file)
         fclose(file);
 }
 

@@ -13,11 +13,11 @@ enum { SUM_A, SUM_B, SUM_AA, SUM_BB, SUM_AB, SUM_MASKED, SUM_COUNT };
 int64_t metrics_count_not_finite(const float *a, const uint8_t *mask, int32_t width,
                                  int32_t height)
 {
-    size_t count = (size_t)width * (size_t)height;
+    const size_t count = (size_t)width * (size_t)height;
     int64_t found = 0;
 
     for (size_t i = 0; i < count; i++)
-        found += (mask == NULL || mask[i]) && !isfinite(a[i]);
+        found += (!mask || mask[i]) && !isfinite(a[i]);
     return found;
 }
 
@@ -32,9 +32,9 @@ static int by_value(const void *x, const void *y)
  */
 static double quantile(const double *sorted, size_t n, double q)
 {
-    double at = q * (double)(n - 1);
-    size_t i = (size_t)at;
-    double next = i + 1 < n ? sorted[i + 1] : sorted[i];
+    const double at = q * (double)(n - 1);
+    const size_t i = (size_t)at;
+    const double next = i + 1 < n ? sorted[i + 1] : sorted[i];
 
     return sorted[i] + (at - (double)i) * (next - sorted[i]);
 }
@@ -46,10 +46,10 @@ static bool compare_signed(const float *a, const float *b, const uint8_t *mask,
     double *errors = malloc((count > 0 ? count : 1) * sizeof *errors);
     double sum = 0.0;
 
-    if (errors == NULL)
+    if (!errors)
         return false;
     for (size_t i = 0; i < count; i++) {
-        if (mask != NULL && !mask[i])
+        if (mask && !mask[i])
             continue;
         errors[n] = (double)a[i] - (double)b[i];
         sum += errors[n++];
@@ -70,10 +70,10 @@ static void compare_pixels(const float *a, const float *b, const uint8_t *mask,
     out->max_error = -1.0;
     for (int32_t y = 0; y < height; y++) {
         for (int32_t x = 0; x < width; x++) {
-            size_t i = (size_t)y * (size_t)width + (size_t)x;
-            double error = fabs((double)a[i] - (double)b[i]);
+            const size_t i = (size_t)y * (size_t)width + (size_t)x;
+            const double error = fabs((double)a[i] - (double)b[i]);
 
-            if (mask != NULL && !mask[i])
+            if (mask && !mask[i])
                 continue;
             out->pixels++;
             sum_a += (double)a[i];
@@ -87,7 +87,7 @@ static void compare_pixels(const float *a, const float *b, const uint8_t *mask,
             }
         }
     }
-    double n = (double)out->pixels;
+    const double n = (double)out->pixels;
     out->mean_a = sum_a / n;
     out->mean_b = sum_b / n;
     out->mae = sum_error / n;
@@ -103,7 +103,7 @@ static void make_window(double weights[WINDOW])
     double sum = 0.0;
 
     for (int i = 0; i < WINDOW; i++) {
-        double r = i - WINDOW / 2;
+        const double r = i - WINDOW / 2;
         weights[i] = exp(-r * r / (2.0 * sigma * sigma));
         sum += weights[i];
     }
@@ -116,15 +116,15 @@ static void sum_columns(const float *a, const float *b, const uint8_t *mask,
                         int32_t width, int32_t y, const double weights[WINDOW],
                         double *columns)
 {
-    size_t w = (size_t)width;
+    const size_t w = (size_t)width;
 
     memset(columns, 0, SUM_COUNT * w * sizeof *columns);
     for (int k = 0; k < WINDOW; k++) {
-        size_t row = ((size_t)y + (size_t)k) * w;
+        const size_t row = ((size_t)y + (size_t)k) * w;
         for (size_t x = 0; x < w; x++) {
-            double va = (double)a[row + x], vb = (double)b[row + x];
+            const double va = (double)a[row + x], vb = (double)b[row + x];
 
-            if (mask != NULL && !mask[row + x]) {
+            if (mask && !mask[row + x]) {
                 columns[SUM_MASKED * w + x] += 1.0;
                 continue;
             }
@@ -141,9 +141,9 @@ static double ssim_of_window(const double s[SUM_COUNT])
 {
     const double c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;
     /* Rounding must not make a variance negative. */
-    double variance_a = fmax(s[SUM_AA] - s[SUM_A] * s[SUM_A], 0.0);
-    double variance_b = fmax(s[SUM_BB] - s[SUM_B] * s[SUM_B], 0.0);
-    double covariance = s[SUM_AB] - s[SUM_A] * s[SUM_B];
+    const double variance_a = fmax(s[SUM_AA] - s[SUM_A] * s[SUM_A], 0.0);
+    const double variance_b = fmax(s[SUM_BB] - s[SUM_B] * s[SUM_B], 0.0);
+    const double covariance = s[SUM_AB] - s[SUM_A] * s[SUM_B];
 
     return (2.0 * s[SUM_A] * s[SUM_B] + c1) * (2.0 * covariance + c2)
            / ((s[SUM_A] * s[SUM_A] + s[SUM_B] * s[SUM_B] + c1)
@@ -154,10 +154,10 @@ static bool compare_windows(const float *a, const float *b, const uint8_t *mask,
                             int32_t width, int32_t height, metrics *out)
 {
     double weights[WINDOW], sum = 0.0;
-    size_t w = (size_t)width;
+    const size_t w = (size_t)width;
     double *columns = calloc(SUM_COUNT * w, sizeof *columns);
 
-    if (columns == NULL)
+    if (!columns)
         return false;
     make_window(weights);
     for (int32_t y = 0; y + WINDOW <= height; y++) {

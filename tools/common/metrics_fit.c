@@ -47,10 +47,10 @@ static bool gather(const float *a, const float *b, const uint8_t *mask, size_t c
 {
     out->at = malloc((count > 0 ? count : 1) * sizeof *out->at);
     out->count = 0;
-    if (out->at == NULL)
+    if (!out->at)
         return false;
     for (size_t i = 0; i < count; i++)
-        if (mask == NULL || mask[i])
+        if (!mask || mask[i])
             out->at[out->count++] = (sample){1.0 - (double)a[i], (double)b[i], 1.0};
     qsort(out->at, out->count, sizeof *out->at, by_darkness);
     return true;
@@ -59,11 +59,11 @@ static bool gather(const float *a, const float *b, const uint8_t *mask, size_t c
 /* Means of neighbours in the order of darkness. */
 static void group(const samples *all, sample *memory, samples *out)
 {
-    size_t count = all->count < GROUPS_MAX ? all->count : GROUPS_MAX;
+    const size_t count = all->count < GROUPS_MAX ? all->count : GROUPS_MAX;
 
     *out = (samples){memory, count};
     for (size_t g = 0; g < count; g++) {
-        size_t first = all->count * g / count, end = all->count * (g + 1) / count;
+        const size_t first = all->count * g / count, end = all->count * (g + 1) / count;
         sample sum = {0.0, 0.0, (double)(end - first)};
 
         for (size_t i = first; i < end; i++) {
@@ -79,8 +79,8 @@ static double square_error(const samples *s, double intensity, double power)
     double sum = 0.0;
 
     for (size_t i = 0; i < s->count; i++) {
-        double open = fmax(0.0, 1.0 - intensity * s->at[i].dark);
-        double error = pow(open, power) - s->at[i].wanted;
+        const double open = fmax(0.0, 1.0 - intensity * s->at[i].dark);
+        const double error = pow(open, power) - s->at[i].wanted;
         sum += s->at[i].weight * error * error;
     }
     return sum;
@@ -92,16 +92,16 @@ static slope slope_at(const samples *s, double intensity, double power)
 
     for (size_t i = 0; i < s->count; i++) {
         const sample *p = &s->at[i];
-        double open = 1.0 - intensity * p->dark, n = p->weight;
+        const double open = 1.0 - intensity * p->dark, n = p->weight;
         double by_intensity = 0.0, by_power = 0.0, value = 0.0;
 
         if (open > 0.0) {
-            double log_open = log(open);
+            const double log_open = log(open);
             value = exp(power * log_open);
             by_intensity = -power * intensity * p->dark * value / open;
             by_power = power * value * log_open;
         }
-        double error = value - p->wanted;
+        const double error = value - p->wanted;
         out.square += n * error * error;
         out.gradient[0] += n * error * by_intensity;
         out.gradient[1] += n * error * by_power;
@@ -122,8 +122,9 @@ static double limited(double value, double factor_log, double low, double high)
 static metrics_curve step(const slope *at, const metrics_curve *from, double damping,
                           bool fixed)
 {
-    double a = at->hessian[0] * (1.0 + damping), c = at->hessian[2] * (1.0 + damping);
-    double b = fixed ? 0.0 : at->hessian[1], determinant = a * c - b * b;
+    const double a = at->hessian[0] * (1.0 + damping);
+    const double c = at->hessian[2] * (1.0 + damping);
+    const double b = fixed ? 0.0 : at->hessian[1], determinant = a * c - b * b;
     double by_power = 0.0;
     metrics_curve to = *from;
 
@@ -154,7 +155,7 @@ static void descend(const samples *s, bool fixed, metrics_curve *curve)
             damping *= 10.0;
             continue;
         }
-        double gain = at.square - there.square;
+        const double gain = at.square - there.square;
         *curve = to;
         at = there;
         damping *= 0.1;
@@ -170,13 +171,13 @@ static metrics_curve search(const samples *s, bool fixed)
     double least = square_error(s, 1.0, 1.0);
 
     for (int i = 0; i <= (fixed ? 0 : INTENSITY_STEPS); i++) {
-        double intensity =
+        const double intensity =
             fixed ? 1.0 : pow(METRICS_INTENSITY_MAX, 2.0 * i / INTENSITY_STEPS - 1.0);
         for (int k = 0; k <= POWER_STEPS; k++) {
-            double power =
+            const double power =
                 METRICS_POWER_MIN
                 * pow(METRICS_POWER_MAX / METRICS_POWER_MIN, (double)k / POWER_STEPS);
-            double square = square_error(s, intensity, power);
+            const double square = square_error(s, intensity, power);
             if (square < least) {
                 least = square;
                 best.intensity = intensity;
@@ -205,14 +206,15 @@ static double best_intensity(const samples *s)
             lit += (1.0 - p->wanted) * (1.0 - p->wanted);
             black -= p->wanted * p->wanted;
         }
-        double above = m > 0 ? s->at[m - 1].dark : INFINITY;
-        double below = m < s->count ? s->at[m].dark : 0.0;
-        double low = m == 0 ? 0.0 : above > 0.0 ? 1.0 / above : INFINITY;
+        const double above = m > 0 ? s->at[m - 1].dark : INFINITY;
+        const double below = m < s->count ? s->at[m].dark : 0.0;
+        const double low = m == 0 ? 0.0 : above > 0.0 ? 1.0 / above : INFINITY;
         double high = below > 0.0 ? 1.0 / below : METRICS_INTENSITY_MAX;
         high = fmin(high, METRICS_INTENSITY_MAX);
         if (low <= high && curvature > 0.0) {
-            double at = fmin(fmax(slope_sum / curvature, low), high);
-            double square = lit - 2.0 * at * slope_sum + at * at * curvature + black;
+            const double at = fmin(fmax(slope_sum / curvature, low), high);
+            const double square =
+                lit - 2.0 * at * slope_sum + at * at * curvature + black;
             if (square < least) {
                 least = square;
                 best = at;

@@ -46,7 +46,7 @@ int metrics_print_json(const metrics_findings *f, report *r)
     json_add_number(root, "flip", f->flip);
     json_add_number(root, "flip_ppd", f->flip_ppd);
     add_fit(root, &f->fit);
-    if (f->heat_map != NULL) {
+    if (f->heat_map) {
         json_add_text(root, "heat_map", f->heat_map);
         json_add_number(root, "heat_scale", f->heat_scale);
     }

@@ -31,7 +31,7 @@ static bool same_file(const char *a, const char *b)
 static const char *folder_of(const char *path, char *folder, size_t size)
 {
     const char *slash = strrchr(path, '/');
-    const int length = slash != NULL ? (int)(slash - path) + 1 : 0;
+    const int length = slash ? (int)(slash - path) + 1 : 0;
 
     snprintf(folder, size, "%.*s.", length, path);
     return path + length;
@@ -49,7 +49,7 @@ bool output_same(const char *a, const char *b)
 
 int output_spare(const char *path, const char *input, report *r)
 {
-    if (input == NULL || !output_same(path, input))
+    if (!input || !output_same(path, input))
         return EXIT_DONE;
     report_error(r, "%s: is an input; choose another name for the output", path);
     return EXIT_USAGE;
@@ -79,7 +79,6 @@ int output_guarded(int (*write)(void *data), void *data)
 {
     struct sigaction hold = {.sa_handler = on_signal, .sa_flags = SA_RESTART};
     struct sigaction former[HELD_COUNT];
-    int result;
 
     caught_signal = 0;
     sigemptyset(&hold.sa_mask);
@@ -89,7 +88,7 @@ int output_guarded(int (*write)(void *data), void *data)
         if (former[i].sa_handler != SIG_IGN)
             sigaction(held_signals[i], &hold, NULL);
     }
-    result = write(data);
+    const int result = write(data);
     for (int i = 0; i < HELD_COUNT; i++)
         sigaction(held_signals[i], &former[i], NULL);
     if (caught_signal != 0)

@@ -11,7 +11,6 @@
 static bool reserve(text *t, size_t more)
 {
     size_t wanted = t->length + more + 1, capacity = t->capacity;
-    char *data;
 
     if (t->failed)
         return false;
@@ -20,8 +19,8 @@ static bool reserve(text *t, size_t more)
     capacity = capacity < 256 ? 256 : capacity;
     while (capacity < wanted)
         capacity *= 2;
-    data = realloc(t->data, capacity);
-    if (data == NULL) {
+    char *data = realloc(t->data, capacity);
+    if (!data) {
         t->failed = true;
         return false;
     }
@@ -47,10 +46,9 @@ void text_add(text *t, const char *words)
 void text_vaddf(text *t, const char *format, va_list arguments)
 {
     va_list again;
-    int length;
 
     va_copy(again, arguments);
-    length = vsnprintf(NULL, 0, format, arguments);
+    const int length = vsnprintf(NULL, 0, format, arguments);
     if (length < 0)
         t->failed = true;
     else if (reserve(t, (size_t)length)) {
@@ -91,11 +89,11 @@ static const char *entity(unsigned char c)
 void text_add_escaped(text *t, const char *words)
 {
     while (*words != '\0') {
-        size_t length = utf8_length(words);
+        const size_t length = utf8_length(words);
         const char *instead =
             length == 0 ? UTF8_REPLACEMENT : entity((unsigned char)*words);
 
-        if (instead != NULL)
+        if (instead)
             text_add(t, instead);
         else
             add_bytes(t, words, length);

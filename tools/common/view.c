@@ -151,9 +151,9 @@ int view_check(const view_settings *s, report *r)
 int view_load(const view_settings *s, scene **out, report *r)
 {
     const char *name = builtin_name(s->model);
-    double start = report_seconds();
-    int result = name ? scene_builtin(name, out, &r->logger)
-                      : scene_load(s->model, out, &r->logger);
+    const double start = report_seconds();
+    const int result = name ? scene_builtin(name, out, &r->logger)
+                            : scene_load(s->model, out, &r->logger);
 
     if (result != 0)
         return EXIT_FAILED;
@@ -170,7 +170,7 @@ static void copy3(float to[3], const float from[3])
 void view_cross(const double a[3], const double b[3], double out[3])
 {
     for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
         out[i] = a[j] * b[k] - a[k] * b[j];
     }
 }
@@ -196,13 +196,13 @@ double view_up_slant(const scene_view *v)
 static int choose_view(const view_settings *s, const scene *model, scene_view *v,
                        report *r)
 {
-    float vfov = (float)((s->vfov_deg.given ? s->vfov_deg.value : 45.0) * degree);
+    const float vfov = (float)((s->vfov_deg.given ? s->vfov_deg.value : 45.0) * degree);
     float lower[3], upper[3];
 
     scene_frame(model, vfov, (float)s->size.width / (float)s->size.height, v);
     scene_bounds(model, lower, upper);
     for (int i = 0; i < 3; i++) {
-        float offset = v->eye[i] - v->target[i];
+        const float offset = v->eye[i] - v->target[i];
         if (s->target.given)
             v->target[i] = s->target.value[i];
         else if (s->eye.given)
@@ -262,8 +262,8 @@ int view_render(const view_settings *s, const scene *model, bool texture_frames,
         .threads = s->common.threads.value,
         .texture_frames = texture_frames,
     };
-    double start = report_seconds();
-    int result = choose_view(s, model, &request.view, r);
+    const double start = report_seconds();
+    const int result = choose_view(s, model, &request.view, r);
 
     if (result != EXIT_DONE)
         return result;

@@ -102,12 +102,12 @@ static const char *choose_channel(const char *path, const io_image *probe,
 {
     const char *grey[] = {"AO", "Y"};
 
-    if (wanted != NULL)
+    if (wanted)
         return wanted; /* io_read() says which there are where it is not one of them */
     if (probe->channel_count == 1)
         return probe->channels[0].name;
     for (size_t i = 0; i < sizeof grey / sizeof grey[0]; i++)
-        if (io_image_find(probe, grey[i]) != NULL)
+        if (io_image_find(probe, grey[i]))
             return grey[i];
     report_error(r, "%s: has %d channels and none is named AO; choose one with --channel",
                  path, probe->channel_count);
@@ -118,7 +118,7 @@ static const float *channel_data(const io_image *image, const char *name)
 {
     const io_channel *channel = io_image_find(image, name);
 
-    return channel != NULL ? channel->data : NULL;
+    return channel ? channel->data : NULL;
 }
 
 static int load(const char *path, const char *wanted, picture *out, report *r)
@@ -127,22 +127,20 @@ static int load(const char *path, const char *wanted, picture *out, report *r)
     char name[IO_NAME_SIZE];
     const char *names[5];
     int32_t count = 0;
-    const char *chosen;
 
     if (io_probe(path, &probe, &r->logger) != 0)
         return EXIT_FAILED;
-    chosen = choose_channel(path, &probe, wanted, r);
-    if (chosen == NULL) {
+    const char *chosen = choose_channel(path, &probe, wanted, r);
+    if (!chosen) {
         io_image_free(&probe);
         return EXIT_USAGE;
     }
     snprintf(name, sizeof name, "%s", chosen);
     names[count++] = name;
-    if (strcmp(name, "Z") != 0 && io_image_find(&probe, "Z") != NULL)
+    if (strcmp(name, "Z") != 0 && io_image_find(&probe, "Z"))
         names[count++] = "Z";
     for (int i = 0; i < 3; i++)
-        if (strcmp(name, normal_names[i]) != 0
-            && io_image_find(&probe, normal_names[i]) != NULL)
+        if (strcmp(name, normal_names[i]) != 0 && io_image_find(&probe, normal_names[i]))
             names[count++] = normal_names[i];
     io_image_free(&probe);
     if (io_read(path, names, count, &out->image, &r->logger) != 0)
@@ -156,22 +154,22 @@ static int load(const char *path, const char *wanted, picture *out, report *r)
 
 static bool is_background(const picture *p, size_t i)
 {
-    if (p->depth != NULL && !(p->depth[i] > 0.0f && p->depth[i] < 1e10f))
+    if (p->depth && !(p->depth[i] > 0.0f && p->depth[i] < 1e10f))
         return true;
-    if (p->normal[0] == NULL || p->normal[1] == NULL || p->normal[2] == NULL)
+    if (!p->normal[0] || !p->normal[1] || !p->normal[2])
         return false;
-    double x = (double)p->normal[0][i], y = (double)p->normal[1][i],
-           z = (double)p->normal[2][i];
+    const double x = (double)p->normal[0][i], y = (double)p->normal[1][i],
+                 z = (double)p->normal[2][i];
     /* Where a renderer averaged over a silhouette the mean normal is shorter than one. */
     return !(fabs(sqrt(x * x + y * y + z * z) - 1.0) <= 0.01);
 }
 
 static uint8_t *make_mask(const picture *a, const picture *b, report *r)
 {
-    size_t count = (size_t)a->image.width * (size_t)a->image.height;
+    const size_t count = (size_t)a->image.width * (size_t)a->image.height;
     uint8_t *mask = malloc(count);
 
-    if (mask == NULL) {
+    if (!mask) {
         report_no_memory(r);
         return NULL;
     }
@@ -183,7 +181,7 @@ static uint8_t *make_mask(const picture *a, const picture *b, report *r)
 static bool finite_values(const char *path, const picture *p, const uint8_t *mask,
                           report *r)
 {
-    int64_t bad =
+    const int64_t bad =
         metrics_count_not_finite(p->values, mask, p->image.width, p->image.height);
 
     if (bad > 0)
@@ -195,7 +193,7 @@ static bool finite_values(const char *path, const picture *p, const uint8_t *mas
 static int measure(const compare_settings *s, const picture *a, const picture *b,
                    const uint8_t *mask, metrics_findings *f, report *r)
 {
-    int32_t width = a->image.width, height = a->image.height;
+    const int32_t width = a->image.width, height = a->image.height;
 
     if (!finite_values(s->a, a, mask, r) || !finite_values(s->b, b, mask, r))
         return EXIT_FAILED;
@@ -226,8 +224,6 @@ static int compare(const compare_settings *s, const picture *a, const picture *b
                           .flip_ppd = s->ppd.value,
                           .heat_map = s->heat_map,
                           .heat_scale = s->heat_scale.value};
-    int result;
-    uint8_t *mask;
 
     if (a->image.width != b->image.width || a->image.height != b->image.height) {
         report_error(r, "%s: is %dx%d, but %s is %dx%d; compare pictures of one size",
@@ -235,12 +231,12 @@ static int compare(const compare_settings *s, const picture *a, const picture *b
                      a->image.height);
         return EXIT_FAILED;
     }
-    mask = make_mask(a, b, r);
-    if (mask == NULL)
+    uint8_t *mask = make_mask(a, b, r);
+    if (!mask)
         return EXIT_FAILED;
-    result = measure(s, a, b, mask, &f, r);
+    int result = measure(s, a, b, mask, &f, r);
     source.mask = mask;
-    if (result == EXIT_DONE && s->heat_map != NULL)
+    if (result == EXIT_DONE && s->heat_map)
         result = heatmap_write(s->heat_map, &source, r);
     free(mask);
     if (result == EXIT_DONE && s->json)
@@ -252,7 +248,7 @@ static int compare(const compare_settings *s, const picture *a, const picture *b
 
 static int check_heat_map(const compare_settings *s, report *r)
 {
-    if (s->heat_map != NULL)
+    if (s->heat_map)
         return heatmap_check(s->heat_map, s->a, s->b, r);
     if (!s->heat_scale.given)
         return EXIT_DONE;
@@ -269,7 +265,7 @@ static int run(const void *settings, report *r)
     if (result == EXIT_DONE)
         result = load(s->a, s->channel, &a, r);
     if (result == EXIT_DONE)
-        result = load(s->b, s->channel_b != NULL ? s->channel_b : s->channel, &b, r);
+        result = load(s->b, s->channel_b ? s->channel_b : s->channel, &b, r);
     if (result == EXIT_DONE)
         result = compare(s, &a, &b, r);
     io_image_free(&a.image);

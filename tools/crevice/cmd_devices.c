@@ -68,7 +68,6 @@ static int run(const void *settings, report *r)
     cJSON *list = cJSON_AddArrayToObject(root, "vulkan");
     crv_device_info info;
     int32_t count = 0;
-    char *line;
 
     device_list_isas(sets, sizeof sets);
     if (!s->json)
@@ -85,11 +84,11 @@ static int run(const void *settings, report *r)
         cJSON_AddStringToObject(root, "vulkan_missing", why);
     if (count == 0 && !s->json)
         printf("%s\n", why);
-    line = s->json ? cJSON_Print(root) : NULL;
+    char *line = s->json ? cJSON_Print(root) : NULL;
     cJSON_Delete(root);
-    if (s->json && line == NULL)
+    if (s->json && !line)
         return report_no_memory(r);
-    if (line != NULL)
+    if (line)
         puts(line);
     cJSON_free(line);
     return EXIT_DONE;

@@ -129,7 +129,7 @@ static cJSON *option_json(const crv_option *option, const crv_method *method)
     cJSON_AddStringToObject(object, "unit", option->unit);
     if (option->type == CRV_OPTION_CHOICE) {
         cJSON *choices = cJSON_AddArrayToObject(object, "choices");
-        for (int32_t i = 0; option->choices[i] != NULL; i++)
+        for (int32_t i = 0; option->choices[i]; i++)
             cJSON_AddItemToArray(choices, cJSON_CreateString(option->choices[i]));
         cJSON_AddStringToObject(object, "default", initial);
     } else if (option->type == CRV_OPTION_BOOL) {
@@ -167,12 +167,11 @@ static void add_method(cJSON *list, const crv_method *method)
 static void add_filter(cJSON *list, const crv_filter *filter)
 {
     cJSON *object = cJSON_CreateObject();
-    cJSON *options;
 
     cJSON_AddStringToObject(object, "name", filter->name);
     cJSON_AddStringToObject(object, "title", filter->title);
     cJSON_AddStringToObject(object, "paper", filter->paper);
-    options = cJSON_AddArrayToObject(object, "options");
+    cJSON *options = cJSON_AddArrayToObject(object, "options");
     for (int32_t i = 0; i < crv_option_count(); i++)
         if (filter_reads(crv_option_at(i), filter))
             cJSON_AddItemToArray(options, option_json(crv_option_at(i), NULL));
@@ -182,13 +181,11 @@ static void add_filter(cJSON *list, const crv_filter *filter)
 /* method and filter NULL: all of both. */
 static int print_json(const crv_method *method, const crv_filter *filter, report *r)
 {
-    bool all = method == NULL && filter == NULL;
+    const bool all = !method && !filter;
     cJSON *root = cJSON_CreateObject();
-    cJSON *list;
-    char *text;
 
     cJSON_AddStringToObject(root, "version", crv_version());
-    list = cJSON_AddArrayToObject(root, "methods");
+    cJSON *list = cJSON_AddArrayToObject(root, "methods");
     for (int32_t i = 0; i < crv_method_count(); i++)
         if (all || crv_method_at(i) == method)
             add_method(list, crv_method_at(i));
@@ -196,9 +193,9 @@ static int print_json(const crv_method *method, const crv_filter *filter, report
     for (int32_t i = 0; i < crv_filter_count(); i++)
         if (all || crv_filter_at(i) == filter)
             add_filter(list, crv_filter_at(i));
-    text = cJSON_Print(root);
+    char *text = cJSON_Print(root);
     cJSON_Delete(root);
-    if (text == NULL)
+    if (!text)
         return report_no_memory(r);
     puts(text);
     cJSON_free(text);
@@ -209,14 +206,13 @@ static int unknown_name(const char *name, report *r)
 {
     const char *names[64];
     int32_t count = 0;
-    const char *nearest;
 
     for (int32_t i = 0; i < crv_method_count() && count < 64; i++)
         names[count++] = crv_method_at(i)->name;
     for (int32_t i = 0; i < crv_filter_count() && count < 64; i++)
         names[count++] = crv_filter_at(i)->name;
-    nearest = crv_nearest_name(name, names, count);
-    if (nearest != NULL)
+    const char *nearest = crv_nearest_name(name, names, count);
+    if (nearest)
         report_error(r, "%s: no such method or filter; did you mean %s?", name, nearest);
     else
         report_error(r, "%s: no such method or filter; see `crevice methods`", name);
@@ -226,18 +222,18 @@ static int unknown_name(const char *name, report *r)
 static int run(const void *settings, report *r)
 {
     const methods_settings *s = settings;
-    const crv_method *method = s->name != NULL ? crv_method_find(s->name) : NULL;
-    const crv_filter *filter = s->name != NULL ? crv_filter_find(s->name) : NULL;
+    const crv_method *method = s->name ? crv_method_find(s->name) : NULL;
+    const crv_filter *filter = s->name ? crv_filter_find(s->name) : NULL;
 
-    if (s->name != NULL && method == NULL && filter == NULL)
+    if (s->name && !method && !filter)
         return unknown_name(s->name, r);
     if (s->json)
         return print_json(method, filter, r);
-    if (method != NULL)
+    if (method)
         print_method(method, true);
-    if (filter != NULL)
+    if (filter)
         print_filter(filter, true);
-    if (s->name == NULL)
+    if (!s->name)
         print_all();
     return EXIT_DONE;
 }

@@ -19,15 +19,14 @@ static const command *find_command(const char *name, report *r)
 {
     const char *names[16];
     int32_t count = 0;
-    const char *nearest;
 
-    for (; commands[count] != NULL; count++) {
+    for (; commands[count]; count++) {
         if (strcmp(commands[count]->name, name) == 0)
             return commands[count];
         names[count] = commands[count]->name;
     }
-    nearest = crv_nearest_name(name, names, count);
-    if (nearest != NULL)
+    const char *nearest = crv_nearest_name(name, names, count);
+    if (nearest)
         report_error(r, "%s: no such command; did you mean %s?", name, nearest);
     else
         report_error(r, "%s: no such command; see `crevice help`", name);
@@ -41,7 +40,7 @@ static int help(int argc, char **argv, report *r)
         return EXIT_DONE;
     }
     const command *c = find_command(argv[0], r);
-    if (c == NULL)
+    if (!c)
         return EXIT_USAGE;
     help_command(stdout, c, args_method(c, argc - 1, argv + 1));
     return EXIT_DONE;
@@ -57,17 +56,14 @@ static bool wants_help(int argc, char **argv)
 
 static int run_command(const command *c, int argc, char **argv, report *r)
 {
-    void *settings;
-    int result;
-
     if (wants_help(argc, argv)) {
         help_command(stdout, c, args_method(c, argc, argv));
         return EXIT_DONE;
     }
-    settings = calloc(1, c->settings_size);
-    if (settings == NULL)
+    void *settings = calloc(1, c->settings_size);
+    if (!settings)
         return report_no_memory(r);
-    result = args_parse(c, argc, argv, settings, r);
+    int result = args_parse(c, argc, argv, settings, r);
     if (result == EXIT_DONE)
         result = c->run(settings, r);
     free(settings);
@@ -89,17 +85,16 @@ static int dispatch(int argc, char **argv, report *r)
     if (strcmp(argv[1], "help") == 0)
         return help(argc - 2, argv + 2, r);
     const command *c = find_command(argv[1], r);
-    return c != NULL ? run_command(c, argc - 2, argv + 2, r) : EXIT_USAGE;
+    return c ? run_command(c, argc - 2, argv + 2, r) : EXIT_USAGE;
 }
 
 int main(int argc, char **argv)
 {
     report r;
-    int result;
 
     report_init(&r);
     signal(SIGXFSZ, SIG_IGN); /* a limit on file sizes is an error of write() then */
-    result = dispatch(argc, argv, &r);
+    int result = dispatch(argc, argv, &r);
     /* A full disk behind a redirection shows only now. */
     if ((fflush(stdout) != 0 || ferror(stdout)) && result == EXIT_DONE) {
         report_error(&r, "standard output: could not be written; is the disk full?");
