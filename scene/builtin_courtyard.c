@@ -334,10 +334,11 @@ static void add_weeds(mesh *m)
     }
 }
 
-void builtin_courtyard(mesh *m, scene_view *view)
+void builtin_courtyard(mesh *m, scene_view *view, const double *p)
 {
     place world = place_at(0, 0, 0);
     place machine = place_turned(&world, v3(2.75, 0, 0.7), -0.22);
+    (void)p;
     mesh_reserve(m, 500000, 400000);
     add_floor(m, &world);
     add_wall(m, &world);

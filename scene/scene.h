@@ -24,11 +24,28 @@ typedef struct scene scene;
  */
 int scene_load(const char *path, scene **out, const crv_logger *log);
 
-/* A scene made in code. Names: scene_builtin_name(0 ...), NULL beyond. "courtyard" is the
- * demo: columns, steps, spheres in contact, a gear-like machine, thin grass; "relief" is
- * for height maps. Flat faces and spheres have texture coordinates. */
+/*
+ * A scene made in code: "NAME" or "NAME,KEY=VALUE". Names: scene_builtin_name(0 ...),
+ * NULL beyond. "courtyard" is the demo: columns, steps, spheres in contact, a gear-like
+ * machine, thin grass. "corner", "plane", "sphere" and "groove" have depth and occlusion
+ * in closed form, "relief" is for height maps, "blades", "leaves" and "bars" are thin.
+ * Flat faces and spheres have texture coordinates.
+ */
 int scene_builtin(const char *name, scene **out, const crv_logger *log);
 const char *scene_builtin_name(int32_t index);
+
+/* Whether scene_builtin() knows the name and its parameters: 0, or -1 after an error
+ * line. */
+int scene_builtin_check(const char *name, const crv_logger *log);
+
+typedef struct scene_parameter {
+    const char *key;
+    double initial, min, max; /* initial may lie outside: not given */
+    const char *help;
+} scene_parameter;
+
+/* The parameters of a built-in scene, by its index and theirs; NULL beyond the last. */
+const scene_parameter *scene_builtin_parameter(int32_t scene_index, int32_t index);
 
 /* NULL does nothing. */
 void scene_free(scene *s);

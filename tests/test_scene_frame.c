@@ -2,6 +2,8 @@
 #include "test_scene_support.h"
 
 #include <stdio.h>
+
+#include <stdio.h>
 #include <string.h>
 
 /* The box's corners as seen: largest and smallest x, y in units of the picture's half
@@ -114,6 +116,64 @@ static void test_radius(void **state)
     scene_free(s);
 }
 
+/* Depth in the middle of the picture and one unit to the right of it or above it, in an
+ * orthographic view that is 6 units high. */
+static void check_depths(const char *name, int32_t dx, int32_t dy, double middle,
+                         double beside)
+{
+    messages m;
+    crv_logger log = catch_messages(&m);
+    scene *s = NULL;
+    scene_view view;
+    assert_int_equal(scene_builtin(name, &s, &log), 0);
+    scene_frame(s, 1.0f, 16.0f / 9.0f, &view);
+    assert_int_equal(view.projection, CRV_ORTHOGRAPHIC);
+    assert_true(fabs((double)view.view_height - 6.0) < 1e-5);
+    /* 10 px a unit, with a pixel's centre in the middle of the picture. */
+    view.view_height = 6.1f;
+    const scene_gbuffer_request request = request_of(&view, 109, 61);
+    scene_gbuffer g = render(s, &request);
+    assert_true(fabs((double)g.depth[0][30 * 109 + 54] - middle) < 2e-6 * middle);
+    assert_true(fabs((double)g.depth[0][(30 - dy) * 109 + 54 + dx] - beside)
+                < 2e-6 * beside);
+    scene_gbuffer_free(&g);
+    scene_free(s);
+}
+
+/* A wall of the groove rises by cot(angle / 2) for each unit off the edge, a tilted plane
+ * falls back by tan(tilt) for each unit up. Planes are exact to float rounding. */
+static void test_builtin_parameters(void **state)
+{
+    static const char *const refused[] = {
+        "groove,angle=180", "groove,angle=", "groove,angle=60x", "groove,tilt=60",
+        "plane?tilt=60",    "plane,",        "corner,tilt=1",    "plane,tilt=60,",
+    };
+    static const double angles[] = {30, 60, 90, 120, 150};
+    static const double tilts[] = {0, 45, 60, 80, 88};
+    char name[40];
+    (void)state;
+    for (int i = 0; i < 5; i++) {
+        snprintf(name, sizeof name, "groove,angle=%g", angles[i]);
+        check_depths(name, 10, 0, 20.0, 20.0 - 1.0 / tan(angles[i] * PI / 360.0));
+        const double slope = tan(tilts[i] * PI / 180.0), distance = 20.0 + 8.0 * slope;
+        snprintf(name, sizeof name, "plane,tilt=%g", tilts[i]);
+        check_depths(name, 0, 10, distance, distance + slope);
+    }
+    check_depths("groove", 10, 0, 20.0, 19.0);
+    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
+        messages m;
+        crv_logger log = catch_messages(&m);
+        scene *s = NULL;
+        assert_int_equal(scene_builtin_check(refused[i], &log), -1);
+        assert_int_equal(scene_builtin(refused[i], &s, NULL), -1);
+        assert_null(s);
+        snprintf(name, sizeof name, "builtin:%s", refused[i]);
+        assert_error_line(&m, name);
+    }
+    assert_string_equal(scene_builtin_parameter(4, 0)->key, "angle");
+    assert_null(scene_builtin_parameter(0, 0));
+}
+
 static int clean(void **state)
 {
     (void)state;
@@ -125,6 +185,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_shows_whole_box),
                                        cmocka_unit_test(test_builtin_view_adapts),
-                                       cmocka_unit_test(test_radius)};
+                                       cmocka_unit_test(test_radius),
+                                       cmocka_unit_test(test_builtin_parameters)};
     return cmocka_run_group_tests(tests, NULL, clean);
 }

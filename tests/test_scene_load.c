@@ -357,7 +357,7 @@ static void test_builtin_names(void **state)
     s = NULL;
     assert_int_equal(scene_builtin("courtyards", &s, &log), -1);
     assert_null(s);
-    assert_error_line(&m, "courtyards");
+    assert_error_line(&m, "builtin:courtyards");
     assert_non_null(strstr(m.error, "groove"));
 }
 

@@ -30,7 +30,7 @@ render 1 'empty.glb: ' empty.glb
 render 1 'cut.glb: ' cut.glb
 render 1 'text.glb: ' text.glb
 render 1 'points.obj: ' points.obj # it has no face
-render 2 'builtin:spheer: .*builtin:sphere' builtin:spheer
+render 2 'builtin:spheer: .*sphere' builtin:spheer
 render 2 'MODEL is missing'
 render 2 'radius: 0 ' $m --radius 0
 render 2 'radius: -1 ' $m --radius -1

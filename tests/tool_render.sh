@@ -47,6 +47,11 @@ at_most "$(number mean_a)" 0.9999 "mean accessibility of a corner"
 good compare --json plane.exr plane.exr
 at_least "$(number mean_a)" 0.98 "mean accessibility of a plane"
 
+# Scenes made in code have parameters, and wrong ones are wrong usage.
+good render builtin:plane,tilt=60 --size 32x18 -o tilted.png
+bad 2 'angle=X with X from 10 to 170' render builtin:groove,angle=5 -o out.png
+bad 2 'choose one of courtyard, ' render builtin:nowhere -o out.png
+
 # Partial cameras, an orthographic one, layers, face normals, no guard band, odd names.
 good render builtin:sphere $small -o "s p ä.png" --eye 3,4,5
 good render builtin:sphere $small -o out1.png --target 0,0,0 --up 0,0,1

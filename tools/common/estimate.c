@@ -42,12 +42,23 @@ void estimate_fit(estimator *e, const crv_gbuffer_desc *desc)
     e->desc = *desc;
 }
 
+static bool same_options(const crv_options *a, const crv_options *b)
+{
+    if (a->method != b->method || a->filter != b->filter)
+        return false;
+    for (int32_t i = 0; i < crv_option_count(); i++) {
+        const crv_option *option = crv_option_at(i);
+        /* Infinite values equal themselves; none is NaN. */
+        const double x = crv_options_get(a, option), y = crv_options_get(b, option);
+        if (x < y || x > y)
+            return false;
+    }
+    return true;
+}
+
 int estimate_plan(estimator *e, const crv_options *options, report *r)
 {
-    const bool same_radius =
-        !(e->options.radius < options->radius) && !(e->options.radius > options->radius);
-
-    if (e->plan && same_radius)
+    if (e->plan && same_options(&e->options, options))
         return EXIT_DONE;
     crv_plan_destroy(e->plan);
     e->plan = NULL;

@@ -20,7 +20,7 @@ int estimate_open(estimator *e, const common_settings *common, report *r);
  * another drops both. Then e->gbuffer may be filled. */
 void estimate_fit(estimator *e, const crv_gbuffer_desc *desc);
 
-/* Makes the plan, where there is none of this radius yet. */
+/* Makes the plan, unless there is one with these options already. */
 int estimate_plan(estimator *e, const crv_options *options, report *r);
 
 /* Converted planar depth of layer 0 from e->gbuffer, of e->desc's size; background is

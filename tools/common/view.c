@@ -44,7 +44,7 @@ static const arg camera_rows[] = {
      .max = 179.0,
      .unit = "degrees",
      .offset = offsetof(view_settings, vfov_deg),
-     .computed = "45, or the built-in scene's",
+     .computed = "45",
      .help = "full vertical field of view"},
     {.name = "--ortho",
      .value = "HEIGHT",
@@ -105,24 +105,6 @@ static const char *builtin_name(const char *model)
     return strncmp(model, "builtin:", 8) == 0 ? model + 8 : NULL;
 }
 
-static int check_builtin(const char *name, report *r)
-{
-    const char *names[64];
-    int32_t count = 0;
-
-    for (; count < 64 && scene_builtin_name(count); count++) {
-        names[count] = scene_builtin_name(count);
-        if (strcmp(names[count], name) == 0)
-            return EXIT_DONE;
-    }
-    const char *nearest = crv_nearest_name(name, names, count);
-    if (!nearest && count > 0)
-        nearest = names[0];
-    report_error(r, "builtin:%s: no such scene; did you mean builtin:%s?", name,
-                 nearest ? nearest : "");
-    return EXIT_USAGE;
-}
-
 int view_check(const view_settings *s, report *r)
 {
     int64_t guard = guard_px(s);
@@ -145,7 +127,10 @@ int view_check(const view_settings *s, report *r)
         report_error(r, "--up: has no length; give a direction such as 0,1,0");
         return EXIT_USAGE;
     }
-    return builtin_name(s->model) ? check_builtin(builtin_name(s->model), r) : EXIT_DONE;
+    if (builtin_name(s->model)
+        && scene_builtin_check(builtin_name(s->model), &r->logger) != 0)
+        return EXIT_USAGE;
+    return EXIT_DONE;
 }
 
 int view_load(const view_settings *s, scene **out, report *r)
