@@ -17,7 +17,7 @@ typedef struct io__exr_channel {
 typedef struct io__exr {
     const io__file *file;
     exr_context_t context;
-    char detail[200]; /* what OpenEXR said last */
+    int io_error; /* errno of a failed read */
     int part_count;
     bool has_deep_parts;
     int32_t channel_count;
@@ -29,8 +29,12 @@ typedef struct io__exr {
 int io__exr_open(const io__file *file, io__exr *exr);
 void io__exr_close(io__exr *exr);
 
-/* Logs `what` with what OpenEXR said; returns -1. */
-int io__exr_fail(const io__exr *exr, const char *what);
+/* An error handler for OpenEXR's contexts. */
+void io__exr_say_nothing(exr_const_context_t context, exr_result_t code,
+                         const char *text);
+
+/* Logs `what` with what the code means, or why the disk could not be read; returns -1. */
+int io__exr_fail(const io__exr *exr, exr_result_t code, const char *what);
 
 /* Windows, pixel aspect and camera; the data window is that of `part`. The channels are
  * left alone. */

@@ -1,58 +1,49 @@
 /* SPDX-License-Identifier: MIT */
 /* exr_file.c: headers of EXR files: parts, channels, windows, camera. */
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <unistd.h>
 
 #include "exr.h"
 
 /* Renderers write hundreds of channels (Cryptomatte, light groups), never this many. */
 enum { MAX_CHANNELS = 4096 };
 
-/* OpenEXR prints its errors to stderr unless somebody takes them. */
-static void keep_detail(exr_const_context_t context, exr_result_t code, const char *text)
+/* OpenEXR prints its errors to stderr unless somebody takes them. What it says in its own
+ * words is given up: the context may be locked, so that its user data are out of reach.
+ */
+void io__exr_say_nothing(exr_const_context_t context, exr_result_t code, const char *text)
 {
-    void *user = NULL;
+    (void)context;
     (void)code;
-    if (!context || exr_get_user_data(context, &user) != EXR_ERR_SUCCESS || !user)
-        return;
-    io__exr *exr = user;
-    IO__OMP(critical(io__exr_detail)) /* chunks are unpacked by several threads */
-    snprintf(exr->detail, sizeof exr->detail, "%s", text ? text : "");
+    (void)text;
 }
 
-int io__exr_fail(const io__exr *exr, const char *what)
+int io__exr_fail(const io__exr *exr, exr_result_t code, const char *what)
 {
-    /* OpenEXR puts the file's name in front of what it says; so do we. */
-    const char *detail = exr->detail;
-    const size_t length = strlen(exr->file->path);
-    if (!strncmp(detail, exr->file->path, length))
-        detail += length;
-    while (*detail == ':' || *detail == ' ' || *detail == '\'')
-        detail++;
+    const int reason = exr->io_error;
+    if (reason)
+        return io__fail(exr->file->log, exr->file->path,
+                        "cannot be read (%s); copy it to another disk", strerror(reason));
     return io__fail(exr->file->log, exr->file->path, "%s (%s); write it again", what,
-                    *detail ? detail : "OpenEXR gives no reason");
+                    exr_get_default_error_message(code));
 }
 
+/* `fail` is left alone, see io__exr_say_nothing(). */
 static int64_t read_at(exr_const_context_t context, void *user, void *buffer,
                        uint64_t size, uint64_t offset, exr_stream_error_func_ptr_t fail)
 {
-    const io__exr *exr = user;
-    uint64_t done = 0;
-    while (done < size) {
-        const ssize_t n = pread(fileno(exr->file->stream), (char *)buffer + done,
-                                size - done, (off_t)(offset + done));
-        if (n < 0) {
-            fail(context, EXR_ERR_READ_IO, "the disk could not be read");
-            return -1;
-        }
-        if (n == 0)
-            break;
-        done += (uint64_t)n;
+    io__exr *exr = user;
+    (void)context;
+    (void)fail;
+    const int64_t done = io__read_at(fileno(exr->file->stream), buffer, size, offset);
+    if (done < 0) {
+        IO__OMP(atomic write) /* chunks are read by several threads */
+        exr->io_error = errno;
     }
-    return (int64_t)done;
+    return done;
 }
 
 static int64_t file_size(exr_const_context_t context, void *user)
@@ -101,8 +92,9 @@ static int list_part(io__exr *exr, int part)
         return 0;
     }
     exr_get_name(exr->context, part, &part_name);
-    if (exr_get_channels(exr->context, part, &list) != EXR_ERR_SUCCESS || !list)
-        return io__exr_fail(exr, "a part has no list of channels");
+    const exr_result_t code = exr_get_channels(exr->context, part, &list);
+    if (code || !list)
+        return io__exr_fail(exr, code, "a part has no list of channels");
     if (list->num_channels < 0 || exr->channel_count + list->num_channels > MAX_CHANNELS)
         return io__fail(exr->file->log, exr->file->path,
                         "has more than %d channels; keep the ones that are needed",
@@ -141,7 +133,7 @@ int io__exr_open(const io__file *file, io__exr *exr)
     exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
     memset(exr, 0, sizeof *exr);
     exr->file = file;
-    initializer.error_handler_fn = keep_detail;
+    initializer.error_handler_fn = io__exr_say_nothing;
     initializer.user_data = exr;
     initializer.read_fn = read_at;
     initializer.size_fn = file_size;
@@ -149,13 +141,15 @@ int io__exr_open(const io__file *file, io__exr *exr)
     /* A file without its table of chunks was cut off: refused, not guessed at. */
     initializer.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
 #endif
-    if (exr_start_read(&exr->context, file->path, &initializer) != EXR_ERR_SUCCESS) {
+    exr_result_t code = exr_start_read(&exr->context, file->path, &initializer);
+    if (code) {
         exr->context = NULL;
-        return io__exr_fail(exr, "its EXR header is damaged or cut off");
+        return io__exr_fail(exr, code, "its EXR header is damaged or cut off");
     }
     int result = 0;
-    if (exr_get_count(exr->context, &exr->part_count) != EXR_ERR_SUCCESS)
-        result = io__exr_fail(exr, "its EXR header is damaged");
+    code = exr_get_count(exr->context, &exr->part_count);
+    if (code)
+        result = io__exr_fail(exr, code, "its EXR header is damaged");
     for (int part = 0; !result && part < exr->part_count; part++)
         result = list_part(exr, part);
     if (!result && exr->channel_count == 0)
@@ -206,9 +200,11 @@ int io__exr_metadata(const io__exr *exr, int part, io_image *image)
 {
     exr_attr_box2i_t data, display;
     float aspect = 1.0f;
-    if (exr_get_data_window(exr->context, part, &data) != EXR_ERR_SUCCESS
-        || exr_get_display_window(exr->context, part, &display) != EXR_ERR_SUCCESS)
-        return io__exr_fail(exr, "its windows are missing from the header");
+    exr_result_t code = exr_get_data_window(exr->context, part, &data);
+    if (!code)
+        code = exr_get_display_window(exr->context, part, &display);
+    if (code)
+        return io__exr_fail(exr, code, "its windows are missing from the header");
     const int64_t width = (int64_t)data.max.x - data.min.x + 1;
     const int64_t height = (int64_t)data.max.y - data.min.y + 1;
     const int64_t display_width = (int64_t)display.max.x - display.min.x + 1;

@@ -2,7 +2,6 @@
 /* exr_write.c: one part of scanlines, ZIP, half or float. */
 #include <errno.h>
 #include <string.h>
-#include <unistd.h>
 
 #include <OpenEXRConfig.h>
 
@@ -16,36 +15,21 @@ typedef struct writer {
     exr_pixel_type_t type;
     int part;
     int io_error; /* errno of a failed write */
-    char detail[200];
 } writer;
 
-static void keep_detail(exr_const_context_t context, exr_result_t code, const char *text)
-{
-    void *user = NULL;
-    (void)code;
-    if (!context || exr_get_user_data(context, &user) != EXR_ERR_SUCCESS || !user)
-        return;
-    writer *w = user;
-    IO__OMP(critical(io__exr_detail)) /* chunks are packed by several threads */
-    snprintf(w->detail, sizeof w->detail, "%s", text ? text : "");
-}
-
+/* `fail` is left alone: OpenEXR calls this with the context's lock held, and `fail` takes
+ * it again, for ever. */
 static int64_t write_at(exr_const_context_t context, void *user, const void *buffer,
                         uint64_t size, uint64_t offset, exr_stream_error_func_ptr_t fail)
 {
     writer *w = user;
-    uint64_t done = 0;
-    while (done < size) {
-        const ssize_t n = pwrite(fileno(w->output->stream), (const char *)buffer + done,
-                                 size - done, (off_t)(offset + done));
-        if (n <= 0) {
-            w->io_error = n < 0 ? errno : ENOSPC;
-            fail(context, EXR_ERR_WRITE_IO, "the disk did not take it");
-            return -1;
-        }
-        done += (uint64_t)n;
+    (void)context;
+    (void)fail;
+    if (io__write_at(fileno(w->output->stream), buffer, size, offset)) {
+        w->io_error = errno;
+        return -1;
     }
-    return (int64_t)done;
+    return (int64_t)size;
 }
 
 static exr_result_t set_windows(const writer *w)
@@ -150,9 +134,15 @@ static exr_result_t pack_chunk(const writer *w, int32_t y, exr_encode_pipeline_t
     return code ? code : exr_encoding_run(w->context, w->part, encode);
 }
 
-/* A chunk that has been packed, to the file. */
+/*
+ * A chunk that has been packed, to the file. Readers take a chunk of exactly its unpacked
+ * size for one that is not packed; OpenEXR 3.1.5 would write it packed all the same.
+ */
 static exr_result_t write_chunk(const writer *w, exr_encode_pipeline_t *encode)
 {
+    if (encode->compressed_bytes >= encode->packed_bytes)
+        return exr_write_scanline_chunk(w->context, w->part, encode->chunk.start_y,
+                                        encode->packed_buffer, encode->packed_bytes);
     return exr_write_scanline_chunk(w->context, w->part, encode->chunk.start_y,
                                     encode->compressed_buffer, encode->compressed_bytes);
 }
@@ -204,7 +194,7 @@ int io__exr_write(io__output *output, const io_image *image,
     exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
     if (check_names(output, image))
         return -1;
-    initializer.error_handler_fn = keep_detail;
+    initializer.error_handler_fn = io__exr_say_nothing;
     initializer.user_data = &w;
     initializer.write_fn = write_at;
     exr_result_t code =
@@ -223,5 +213,5 @@ int io__exr_write(io__output *output, const io_image *image,
     if (w.io_error)
         return io__output_fail(output);
     return io__fail(output->log, output->path, "OpenEXR cannot write it (%s); try .pfm",
-                    w.detail[0] ? w.detail : exr_get_default_error_message(code));
+                    exr_get_default_error_message(code));
 }

@@ -12,8 +12,7 @@
 
 static int write_all(const io__output *output, const void *bytes, size_t size)
 {
-    errno = 0;
-    return fwrite(bytes, 1, size, output->stream) == size ? 0 : io__output_fail(output);
+    return io__write(output->stream, bytes, size) == size ? 0 : io__output_fail(output);
 }
 
 int io_write_bytes(const char *path, const void *bytes, size_t size,
@@ -39,10 +38,7 @@ static int fill(const io__output *output, size_t room)
             return -1;
         room -= part;
     }
-    errno = 0;
-    return fflush(output->stream) || fsync(fileno(output->stream))
-               ? io__output_fail(output)
-               : 0;
+    return io__output_flush(output) ? io__output_fail(output) : 0;
 }
 
 int io_check_room(const char *path, size_t room, const crv_logger *log)

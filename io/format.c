@@ -4,9 +4,12 @@
  * and a line here.
  */
 #include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "internal.h"
 
@@ -50,7 +53,8 @@ bool io_keeps_windows(const char *path)
 static int open_for_reading(const char *path, const crv_logger *log, io__file *file)
 {
     struct stat status;
-    /* Asked before opening: opening a pipe would wait for its writer. */
+    /* Asked before opening, because opening a device can do things; and opened without
+     * waiting, because a pipe may have taken the file's place since. */
     if (stat(path, &status))
         return io__fail(log, path, "cannot be opened (%s); check the name",
                         strerror(errno));
@@ -60,7 +64,10 @@ static int open_for_reading(const char *path, const crv_logger *log, io__file *f
         return io__fail(log, path, "is not a regular file; save the picture to one");
     if (status.st_size == 0)
         return io__fail(log, path, "is empty; write it again");
-    FILE *stream = fopen(path, "rb");
+    const int descriptor = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    FILE *stream = descriptor >= 0 ? fdopen(descriptor, "rb") : NULL;
+    if (!stream && descriptor >= 0)
+        close(descriptor);
     if (!stream)
         return io__fail(log, path, "cannot be opened (%s); check its permissions",
                         strerror(errno));
@@ -72,7 +79,12 @@ static int open_for_reading(const char *path, const crv_logger *log, io__file *f
 static const io__format *recognise(const io__file *file)
 {
     unsigned char head[16];
-    const size_t size = fread(head, 1, sizeof head, file->stream);
+    const size_t size = io__read(file->stream, head, sizeof head);
+    if (size < sizeof head && errno) {
+        io__fail(file->log, file->path, "cannot be read (%s); copy it to another disk",
+                 strerror(errno));
+        return NULL;
+    }
     if (fseek(file->stream, 0, SEEK_SET)) {
         io__fail(file->log, file->path, "cannot be read (%s); copy it to a disk",
                  strerror(errno));
@@ -150,5 +162,7 @@ int io_check_writable(const char *path, const crv_logger *log)
 {
     if (!format_for_writing(path, log))
         return -1;
-    return io__output_check(path, log);
+    char *target = io__writable_target(path, log);
+    free(target);
+    return target ? 0 : -1;
 }

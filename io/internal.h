@@ -25,6 +25,11 @@ void io__warn(const crv_logger *log, const char *path, const char *format, ...)
 void io__info(const crv_logger *log, const char *path, const char *format, ...)
     IO__PRINTF(3, 4);
 
+/* Replaces what must not reach a terminal or a log in a text from outside by '?': control
+ * characters, those of UTF-8 and those that turn the direction of text included, and
+ * bytes that are no UTF-8. */
+void io__clean_text(char *text);
+
 /* Fails with the list of the channels that `image` has and the nearest of them. */
 int io__fail_channel(const crv_logger *log, const char *path, const char *wanted,
                      const io_image *image);
@@ -44,6 +49,16 @@ typedef struct io__file {
     const crv_logger *log;
 } io__file;
 
+/* fread() and fwrite() that go on after EINTR: fewer bytes than `size` are the end of the
+ * file or, with errno set, an error. */
+size_t io__read(FILE *stream, void *bytes, size_t size);
+size_t io__write(FILE *stream, const void *bytes, size_t size);
+
+/* pread() until `size` bytes or the file's end: the number of bytes, or -1 with errno. */
+int64_t io__read_at(int descriptor, void *bytes, uint64_t size, uint64_t offset);
+/* pwrite() of all bytes: 0, or -1 with errno. */
+int io__write_at(int descriptor, const void *bytes, uint64_t size, uint64_t offset);
+
 /* A temporary file in the target's folder, open for writing. */
 typedef struct io__output {
     const char *path; /* as the caller wrote it, for messages */
@@ -55,13 +70,24 @@ typedef struct io__output {
 
 /* Opens the temporary file. After success, one of commit or discard must follow. */
 int io__output_open(io__output *output, const char *path, const crv_logger *log);
+/* Brings what was written to disk: 0, or -1 with errno. */
+int io__output_flush(const io__output *output);
 /* Brings the data to disk and puts the file in place of the target. */
 int io__output_commit(io__output *output);
 void io__output_discard(io__output *output);
 /* Logs the failed write with errno's reason; returns -1. */
 int io__output_fail(const io__output *output);
-/* Whether io__output_open() can work, without making anything. */
-int io__output_check(const char *path, const crv_logger *log);
+/* The file that a path names, links followed, if it can be written; NULL after an error
+ * line. The caller frees it. */
+char *io__writable_target(const char *path, const crv_logger *log);
+/* `name` in the folder of `path`, or just `name` if it is absolute. The caller frees it;
+ * NULL if memory is missing. */
+char *io__beside(const char *path, const char *name);
+/* Removes the temporary files that killed processes left in a folder, and says so. */
+void io__remove_leftovers(const char *folder, const crv_logger *log);
+
+#define IO__TEMPORARY_PREFIX ".crevice-"
+#define IO__TEMPORARY_SUFFIX ".tmp"
 
 /* A row of the format table. The functions log their own errors and return 0 or -1. */
 typedef struct io__format {

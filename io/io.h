@@ -97,6 +97,10 @@ void io_copy_window(const io_image *from, const float *source, const io_image *t
  * path is not a folder. For finding out before a long computation. */
 int io_check_writable(const char *path, const crv_logger *log);
 
+/* Whether both paths name one file, links followed; neither need be there yet. For
+ * outputs that would replace each other, or an input. */
+bool io_is_same_file(const char *a, const char *b);
+
 /* Whether the disk holds `room` more bytes where `path` will be: writes them beside it
  * and removes them again. */
 int io_check_room(const char *path, size_t room, const crv_logger *log);

@@ -103,9 +103,10 @@ static int read_rows(const io__file *file, const pfm_header *header, io_image *i
         return io__fail(file->log, file->path, "no memory; close other programs");
     int result = 0;
     for (int32_t y = header->height - 1; !result && y >= 0; y--) {
-        if (fread(row, channels * 4, width, file->stream) != width)
+        if (io__read(file->stream, row, width * channels * 4) != width * channels * 4)
             result = io__fail(file->log, file->path,
-                              "cannot be read to its end; write it again");
+                              "cannot be read (%s); copy it to another disk",
+                              errno ? strerror(errno) : "it was cut off");
         for (size_t i = 0; !result && i < width * channels; i++)
             image->channels[i % channels].data[(size_t)y * width + i / channels] =
                 load_float(row + 4 * i, header->little_endian);
@@ -151,7 +152,7 @@ static int write_rows(io__output *output, const io_image *image, const int32_t *
             const io_channel *channel = &image->channels[index[i % channels]];
             store_float(channel->data[(size_t)y * width + i / channels], row + 4 * i);
         }
-        if (fwrite(row, channels * 4, width, output->stream) != width)
+        if (io__write(output->stream, row, width * channels * 4) != width * channels * 4)
             result = io__output_fail(output);
     }
     free(row);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* png_read.c: PNG of 1 to 16 bits, palettes expanded, to [0, 1]; the format's row. */
+#include <errno.h>
 #include <setjmp.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,6 +18,7 @@ typedef struct reader {
     size_t stored_row_bytes, row_bytes; /* in the file, and expanded */
     unsigned char *pixels;              /* owned */
     png_bytep *rows;                    /* owned */
+    int io_error;                       /* errno of a failed read */
     io__png_message message;
 } reader;
 
@@ -34,8 +36,21 @@ void io__png_warning(png_structp png, png_const_charp text)
     (void)text;
 }
 
+static void read_bytes(png_structp png, png_bytep bytes, size_t size)
+{
+    reader *r = png_get_io_ptr(png);
+    if (io__read(r->file->stream, bytes, size) == size)
+        return;
+    r->io_error = errno;
+    png_error(png, "it ends in the middle");
+}
+
 static int damaged(const reader *r)
 {
+    if (r->io_error)
+        return io__fail(r->file->log, r->file->path,
+                        "cannot be read (%s); copy it to another disk",
+                        strerror(r->io_error));
     return io__fail(r->file->log, r->file->path,
                     "is a damaged or cut off PNG (%s); write it again",
                     r->message.text[0] ? r->message.text : "libpng gives no reason");
@@ -53,7 +68,7 @@ static int read_header(reader *r)
 {
     if (setjmp(png_jmpbuf(r->png)))
         return damaged(r);
-    png_init_io(r->png, r->file->stream);
+    png_set_read_fn(r->png, r, read_bytes);
     png_set_user_limits(r->png, 0x7fffffff, 0x7fffffff);
     png_read_info(r->png, r->info);
     const int64_t width = png_get_image_width(r->png, r->info);

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <setjmp.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "png_io.h"
 
@@ -51,6 +52,18 @@ static void fill_row(const writer *w, int32_t y)
     }
 }
 
+static void write_bytes(png_structp png, png_bytep bytes, size_t size)
+{
+    if (io__write(png_get_io_ptr(png), bytes, size) != size)
+        png_error(png, strerror(errno));
+}
+
+/* io__output_commit() does. */
+static void flush_nothing(png_structp png)
+{
+    (void)png;
+}
+
 static int write_all(writer *w)
 {
     errno = 0;
@@ -59,7 +72,7 @@ static int write_all(writer *w)
                    ? io__output_fail(w->output)
                    : io__fail(w->output->log, w->output->path,
                               "libpng cannot write it (%s); try .exr", w->message.text);
-    png_init_io(w->png, w->output->stream);
+    png_set_write_fn(w->png, w->output->stream, write_bytes, flush_nothing);
     png_set_user_limits(w->png, CRV_MAX_SIZE, CRV_MAX_SIZE);
     png_set_IHDR(
         w->png, w->info, (png_uint_32)w->image->width, (png_uint_32)w->image->height,

@@ -321,9 +321,37 @@ static void test_written_camera(void **state)
     io_image_free(&image);
 }
 
+/* Every small size, so that among them are chunks which pack to exactly their own size:
+ * such a chunk must be stored as it is, or readers take it for one that is not packed. */
+static void test_chunks_of_equal_size(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"AO"};
+    const char *path = support_path("equal.exr");
+    uint32_t seed = 1;
+    for (int32_t height = 1; height <= 16; height++)
+        for (int32_t width = 1; width <= 19; width++) {
+            io_image image, again;
+            assert_int_equal(io_image_init(&image, width, height, names, 1, NULL), 0);
+            /* Some pixels open, the rest not: packs to about as much. */
+            for (int32_t i = 0; i < width * height; i++) {
+                seed = seed * 1664525u + 1013904223u;
+                image.channels[0].data[i] =
+                    seed >> 29 < 3 ? 1.0f : (float)(seed >> 8) / 16777216.0f;
+            }
+            assert_int_equal(io_write(path, &image, NULL, NULL), 0);
+            assert_int_equal(io_read(path, NULL, 0, &again, support_logger()), 0);
+            assert_memory_equal(again.channels[0].data, image.channels[0].data,
+                                (size_t)(width * height) * sizeof(float));
+            io_image_free(&again);
+            io_image_free(&image);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_chunks_of_equal_size),
         cmocka_unit_test(test_storage_and_compression),
         cmocka_unit_test(test_bottom_up),
         cmocka_unit_test(test_single_channel_of_many),

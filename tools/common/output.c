@@ -6,10 +6,8 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 static const int held_signals[] = {SIGINT, SIGTERM, SIGHUP};
-enum { PATH_SIZE = 4096 };
 enum { HELD_COUNT = sizeof held_signals / sizeof held_signals[0] };
 
 static volatile sig_atomic_t caught_signal;
@@ -19,37 +17,9 @@ static void on_signal(int number)
     caught_signal = number;
 }
 
-static bool same_file(const char *a, const char *b)
-{
-    struct stat first, second;
-
-    return stat(a, &first) == 0 && stat(b, &second) == 0 && first.st_dev == second.st_dev
-           && first.st_ino == second.st_ino;
-}
-
-/* The folder of a path and its name in it. */
-static const char *folder_of(const char *path, char *folder, size_t size)
-{
-    const char *slash = strrchr(path, '/');
-    const int length = slash ? (int)(slash - path) + 1 : 0;
-
-    snprintf(folder, size, "%.*s.", length, path);
-    return path + length;
-}
-
-bool output_same(const char *a, const char *b)
-{
-    char folder_a[PATH_SIZE], folder_b[PATH_SIZE];
-    const char *name_a = folder_of(a, folder_a, sizeof folder_a);
-    const char *name_b = folder_of(b, folder_b, sizeof folder_b);
-
-    return same_file(a, b)
-           || (strcmp(name_a, name_b) == 0 && same_file(folder_a, folder_b));
-}
-
 int output_spare(const char *path, const char *input, report *r)
 {
-    if (!input || !output_same(path, input))
+    if (!input || !io_is_same_file(path, input))
         return EXIT_DONE;
     report_error(r, "%s: is an input; choose another name for the output", path);
     return EXIT_USAGE;

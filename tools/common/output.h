@@ -6,9 +6,6 @@
 #include "args.h"
 #include "io.h"
 
-/* Whether both name one file, which need not be there yet. */
-bool output_same(const char *a, const char *b);
-
 /* EXIT_DONE, or an error line where writing there would replace `input` (NULL: none). */
 int output_spare(const char *path, const char *input, report *r);
 

@@ -82,7 +82,7 @@ static int check(const render_settings *s, report *r)
         if (!paths[i])
             continue;
         for (int j = 0; j < i && result == EXIT_DONE; j++) {
-            if (paths[j] && output_same(paths[i], paths[j])) {
+            if (paths[j] && io_is_same_file(paths[i], paths[j])) {
                 report_error(r, "%s: is named for two pictures; choose another name",
                              paths[i]);
                 result = EXIT_USAGE;
