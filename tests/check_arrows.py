@@ -19,6 +19,7 @@ ROOMS = {
     "src/cpu": {"include/crevice", "src/base", "src/core", "src/shared",
                 "src/cpu/simd", "src/cpu/kernels"},
     "src/vulkan": {"include/crevice", "src/base", "src/core", "src/shared"},
+    "src/backends.c": {"src/core"},
     "io": {"include/crevice"},
     "scene": {"include/crevice"},
     "tools/common": {"include/crevice", "io", "scene"},
@@ -31,7 +32,7 @@ ROOMS = {
 # core reads, and nothing else of methods and filters is. Kernels read a frame's planes and
 # the values of its options.
 EXTRA = {
-    "src/cpu/kernels": {"src/core/conversions.h", "src/core/frame.h",
+    "src/cpu/kernels": {"src/core/conversions.h", "src/core/frame.h", "src/core/ids.h",
                         "src/core/image.h",
                         "include/crevice/options.h"},
     "src/core": {"src/methods/list.h", "src/filters/list.h"},
@@ -51,7 +52,7 @@ SYSTEM = {
     "src/core": STANDARD,
     "src/methods": STANDARD,
     "src/filters": STANDARD,
-    "src/cpu/kernels": {"stdint.h"},
+    "src/cpu/kernels": {"stdbool.h", "stdint.h"},
     "src/cpu": STANDARD,
 }
 
@@ -64,7 +65,8 @@ OWNED = {
 }
 
 # Headers that the build makes, and their rooms.
-GENERATED = {"crevice_shaders.h": "src/vulkan", "vulkan_host_shaders.h": "examples"}
+GENERATED = {"crevice_shaders.h": "src/vulkan", "crevice_sets.h": "src/cpu",
+             "vulkan_host_shaders.h": "examples"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)', re.M)
 COMMENT = re.compile(r"/\*.*?\*/", re.S)
@@ -72,7 +74,7 @@ COMMENT = re.compile(r"/\*.*?\*/", re.S)
 
 def room_of(path):
     for room in ROOMS:
-        if path.startswith(room + "/"):
+        if path == room or path.startswith(room + "/"):
             return room
     return None
 

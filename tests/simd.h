@@ -71,12 +71,4 @@ float *simd_run(const simd_case *c, crv_isa isa);
  * a line about what went wrong. */
 double simd_time(const simd_case *c, crv_isa isa);
 
-/* ---- the vocabulary, once per set ---- */
-
-/* Each returns the number of faults, a line for each. */
-int crv__words_sse4(uint64_t seed);
-int crv__words_avx2(uint64_t seed);
-int crv__words_avx512(uint64_t seed);
-int crv__words_neon(uint64_t seed);
-
 #endif

@@ -295,6 +295,7 @@ static void check_fours(void)
         expect_float("vf_join4", i, i >= 1 && i <= 4 * N ? (float)(i - 1) : -1, back[i]);
 }
 
+int CRV__NAME(words)(uint64_t seed);
 int CRV__NAME(words)(uint64_t seed)
 {
     simd_random r = simd_random_make(seed, 1, 0);

@@ -13,6 +13,8 @@
 #include "camera.h"
 #include "image.h"
 
+#include <stdbool.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -79,6 +81,10 @@ typedef struct crv_gbuffer_desc {
  * struct_size. Thread-safe. */
 CRV_API void crv_gbuffer_desc_init(crv_gbuffer_desc *desc, size_t struct_size,
                                    int32_t width, int32_t height);
+
+/* Whether all sizes and kinds are the same, so that plans and G-buffers made with one
+ * serve for the other. Neither may be NULL. Thread-safe. */
+CRV_API bool crv_gbuffer_desc_equal(const crv_gbuffer_desc *a, const crv_gbuffer_desc *b);
 
 /*
  * Owns converted buffers; made once and filled anew for each frame, in this order:

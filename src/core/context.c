@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/backend.h"
+#include "core/conversions.h"
 
 #include <string.h>
 
@@ -80,9 +81,23 @@ crv_status crv__context_create_bare(const crv_context_desc *desc, crv_context **
                              .exact = desc->exact,
                              .half_filters = desc->half_filters,
                              .depth_layout = desc->depth_layout,
-                             .backend = &crv__cpu_backend};
-    *out = context;
-    return CRV_OK;
+                             .backend = crv__backends[0],
+                             .conversions = &crv__conversions_specified};
+    const crv_status status = context->backend->open(context, 0);
+    if (status)
+        crv_context_destroy(context);
+    else
+        *out = context;
+    return status;
+}
+
+/* The backend of a device; NULL: there is none. */
+static const crv__backend *backend_of(crv_device device)
+{
+    const crv__backend *const *backend = crv__backends;
+    while (*backend && (*backend)->device != device)
+        backend++;
+    return *backend;
 }
 
 crv_status crv_context_create(const crv_context_desc *desc, crv_context **out)
@@ -91,12 +106,13 @@ crv_status crv_context_create(const crv_context_desc *desc, crv_context **out)
     crv_status status = crv__context_create_bare(desc, out ? &context : NULL);
     if (status)
         return status;
-    if (desc && desc->device == CRV_DEVICE_VULKAN)
-        status = crv__vulkan_open(context, desc->device_index);
-    else if (desc && desc->device != CRV_DEVICE_CPU)
+    const crv__backend *backend = desc ? backend_of(desc->device) : context->backend;
+    if (!backend)
         status =
             crv__fail(&desc->logger, CRV_ERROR_INVALID_ARGUMENT,
                       "context: device %d is neither CPU nor Vulkan", (int)desc->device);
+    else if (backend != context->backend)
+        status = backend->open(context, desc->device_index);
     if (status)
         crv_context_destroy(context);
     else

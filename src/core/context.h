@@ -19,8 +19,15 @@ struct crv_context {
     int half_filters;              /* on a device, as in crv_context_desc */
     crv_depth_layout depth_layout; /* likewise */
     const crv__backend *backend;
-    void *device; /* the backend's; NULL: none */
+    const struct crv__conversions *conversions; /* on the host, whatever the backend */
+    crv_isa isa;                                /* of the host's kernels */
+    const struct crv__kernels *kernels;         /* the host's; NULL: the specification */
+    void *device;                               /* the backend's; NULL: none */
 };
+
+/* A context that computes on the host and is not yet anybody's: crv_context_create()
+ * without the device. */
+crv_status crv__context_create_bare(const crv_context_desc *desc, crv_context **out);
 
 static inline void crv__run_parallel(const crv_context *context, uint32_t count,
                                      void (*task)(void *data, uint32_t index), void *data)

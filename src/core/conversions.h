@@ -36,10 +36,7 @@ typedef struct crv__conversions {
                         const crv__plane *normal, int32_t has_normals, int32_t y);
 } crv__conversions;
 
-typedef struct crv_context crv_context;
-
-/* Those of the best instruction set that the context allows, on any device; NULL: the
- * specification. */
-const crv__conversions *crv__cpu_conversions(const crv_context *context);
+/* The specification: crv__depth_row(), crv__rotated_row(), crv__normals_row(). */
+extern const crv__conversions crv__conversions_specified;
 
 #endif

@@ -58,9 +58,8 @@ float crv__depth_map_apply(const crv__depth_map *map, int32_t x, int32_t y, floa
     return d > 0 && d < INFINITY ? d : INFINITY; /* NaN fails both */
 }
 
-/* The specification of crv__conversions.depth_row. */
-static void depth_row(const crv__depth_map *map, const float *from, ptrdiff_t stride,
-                      int32_t y, int32_t count, float *out)
+void crv__depth_row(const crv__depth_map *map, const float *from, ptrdiff_t stride,
+                    int32_t y, int32_t count, float *out)
 {
     for (int32_t x = 0; x < count; x++)
         out[x] = crv__depth_map_apply(map, x, y, from[x * stride]);
@@ -71,11 +70,10 @@ static void convert_row(void *data, uint32_t row)
     const depth_job *job = data;
     const int32_t y = (int32_t)row;
     float *out = crv__plane_at(&job->gbuffer->depth[job->layer], 0, y);
-    const crv__conversions *kernels = crv__cpu_conversions(job->gbuffer->context);
-    (kernels ? kernels->depth_row
-             : depth_row)(&job->map, crv_image_at(job->image, 0, y, 0),
-                          job->image->pixel_stride / (ptrdiff_t)sizeof(float), y,
-                          job->gbuffer->desc.width, out);
+    job->gbuffer->context->conversions->depth_row(
+        &job->map, crv_image_at(job->image, 0, y, 0),
+        job->image->pixel_stride / (ptrdiff_t)sizeof(float), y, job->gbuffer->desc.width,
+        out);
 }
 
 /* The affine map of a hardware depth. Standard: v = 0 at near, 1 at far; reversed: 1 - v.

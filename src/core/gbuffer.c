@@ -16,6 +16,15 @@ void crv_gbuffer_desc_init(crv_gbuffer_desc *desc, size_t struct_size, int32_t w
         .struct_size = struct_size, .width = width, .height = height, .layers = 1};
 }
 
+bool crv_gbuffer_desc_equal(const crv_gbuffer_desc *a, const crv_gbuffer_desc *b)
+{
+    return a->width == b->width && a->height == b->height && a->layers == b->layers
+           && a->layer_kind == b->layer_kind && a->guard_left == b->guard_left
+           && a->guard_top == b->guard_top && a->guard_right == b->guard_right
+           && a->guard_bottom == b->guard_bottom && a->origin_x == b->origin_x
+           && a->origin_y == b->origin_y;
+}
+
 crv_status crv__gbuffer_desc_check(const crv_logger *logger, const crv_gbuffer_desc *desc)
 {
     if (!desc || desc->struct_size != sizeof *desc)
@@ -131,8 +140,7 @@ static void take_normals_row(void *data, uint32_t row)
     float *out[3];
     for (int i = 0; i < 3; i++)
         out[i] = crv__plane_at(&job->gbuffer->normal[i], 0, y);
-    const crv__conversions *kernels = crv__cpu_conversions(job->gbuffer->context);
-    (kernels ? kernels->rotated_row : crv__rotated_row)(
+    job->gbuffer->context->conversions->rotated_row(
         job->rotation, crv_image_at(image, 0, y, 0),
         image->pixel_stride / (ptrdiff_t)sizeof(float),
         image->channel_stride / (ptrdiff_t)sizeof(float), job->gbuffer->desc.width, out);
@@ -199,9 +207,8 @@ static void finish_row(void *data, uint32_t row)
     crv_gbuffer *g = data;
     crv__params params = {0};
     crv__gbuffer_params(g, &params);
-    const crv__conversions *kernels = crv__cpu_conversions(g->context);
-    (kernels ? kernels->normals_row : crv__normals_row)(&params, &g->depth[0], g->normal,
-                                                        g->has_normals, (int32_t)row);
+    g->context->conversions->normals_row(&params, &g->depth[0], g->normal, g->has_normals,
+                                         (int32_t)row);
 }
 
 crv_status crv__gbuffer_prepare(crv_gbuffer *g)

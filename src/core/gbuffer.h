@@ -51,11 +51,12 @@ void crv__gbuffer_params(const crv_gbuffer *gbuffer, crv__params *params);
 void crv__height_field_finish(crv_gbuffer *gbuffer);
 void crv__height_field_release(crv_gbuffer *gbuffer);
 
-/* The specification of crv__conversions.rotated_row (normals.c). */
+/* The specification of crv__conversions: depth_row (depth.c), rotated_row and normals_row
+ * (normals.c). */
+void crv__depth_row(const crv__depth_map *map, const float *from, ptrdiff_t stride,
+                    int32_t y, int32_t count, float *out);
 void crv__rotated_row(const float rotation[9], const float *from, ptrdiff_t stride,
                       ptrdiff_t channel, int32_t count, float *const out[3]);
-
-/* The specification of crv__conversions.normals_row (normals.c). */
 void crv__normals_row(const crv__params *params, const crv__plane *depth,
                       const crv__plane *normal, int32_t has_normals, int32_t y);
 

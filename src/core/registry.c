@@ -22,24 +22,19 @@ static const crv__filter *const FILTERS[] = {
 #undef CRV__FILTER
 };
 
-enum {
-    METHOD_COUNT = sizeof METHODS / sizeof METHODS[0],
-    FILTER_COUNT = sizeof FILTERS / sizeof FILTERS[0]
-};
-
 int32_t crv_method_count(void)
 {
-    return METHOD_COUNT;
+    return CRV__METHOD_COUNT;
 }
 
 const crv_method *crv_method_at(int32_t index)
 {
-    return index >= 0 && index < METHOD_COUNT ? &METHODS[index]->info : NULL;
+    return index >= 0 && index < CRV__METHOD_COUNT ? &METHODS[index]->info : NULL;
 }
 
 const crv_method *crv_method_find(const char *name)
 {
-    for (int32_t i = 0; name && i < METHOD_COUNT; i++) {
+    for (int32_t i = 0; name && i < CRV__METHOD_COUNT; i++) {
         if (strcmp(METHODS[i]->info.name, name) == 0)
             return &METHODS[i]->info;
     }
@@ -48,19 +43,35 @@ const crv_method *crv_method_find(const char *name)
 
 int32_t crv_filter_count(void)
 {
-    return FILTER_COUNT;
+    return CRV__FILTER_COUNT;
 }
 
 const crv_filter *crv_filter_at(int32_t index)
 {
-    return index >= 0 && index < FILTER_COUNT ? &FILTERS[index]->info : NULL;
+    return index >= 0 && index < CRV__FILTER_COUNT ? &FILTERS[index]->info : NULL;
 }
 
 const crv_filter *crv_filter_find(const char *name)
 {
-    for (int32_t i = 0; name && i < FILTER_COUNT; i++) {
+    for (int32_t i = 0; name && i < CRV__FILTER_COUNT; i++) {
         if (strcmp(FILTERS[i]->info.name, name) == 0)
             return &FILTERS[i]->info;
     }
     return NULL;
+}
+
+crv__method_id crv__method_id_of(const crv__method *method)
+{
+    int32_t id = 0;
+    while (METHODS[id] != method)
+        id++;
+    return (crv__method_id)id;
+}
+
+crv__filter_id crv__filter_id_of(const crv__filter *filter)
+{
+    int32_t id = 0;
+    while (FILTERS[id] != filter)
+        id++;
+    return (crv__filter_id)id;
 }

@@ -4,6 +4,7 @@
 #define CRV_CORE_REGISTRY_H
 
 #include "core/frame.h"
+#include "core/ids.h"
 #include "crevice/options.h"
 
 typedef struct crv__method {
@@ -32,6 +33,10 @@ typedef struct crv__filter {
     float (*filter)(const crv__frame *frame, const crv__plane *input, int32_t pass,
                     int32_t x, int32_t y);
 } crv__filter;
+
+/* The places of a method and of a filter in their lists. */
+crv__method_id crv__method_id_of(const crv__method *method);
+crv__filter_id crv__filter_id_of(const crv__filter *filter);
 
 /* info is the first member, so the public pointer is the internal one. */
 static inline const crv__method *crv__method_of(const crv_method *method)

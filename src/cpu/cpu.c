@@ -4,6 +4,7 @@
  */
 #include "core/backend.h"
 #include "cpu/fast.h"
+#include "cpu/isa.h"
 
 #include <math.h>
 
@@ -109,14 +110,18 @@ static void run_tiles(tiles *t)
                       run_tile, t);
 }
 
-/* The kernels that fit this frame: they index planes with 32 bits and know nothing of
- * fields. */
-static const crv__kernels *kernels_for(const crv__work *work)
+/* What a plan is computed with: kernels where there are, else NULL. */
+typedef struct plan_state {
+    crv__estimate_kernel estimate;
+    crv__filter_kernel filter;
+    crv__fast_state *fast;
+} plan_state;
+
+/* Kernels know nothing of fields. */
+static const plan_state *state_of(const crv__work *work)
 {
-    const crv__plane *depth = &work->frame->depth[0];
-    if (work->frame->params->use_field || depth->pitch > INT32_MAX / depth->height)
-        return NULL;
-    return crv__kernels_best(work->setup->context->isa_mask);
+    static const plan_state SPECIFICATION;
+    return work->frame->params->use_field ? &SPECIFICATION : work->state;
 }
 
 /* The pixels of a row whose radius is beyond the fast structure's table. */
@@ -182,16 +187,15 @@ static void run_fast_tiles(tiles *t)
 static void estimate(const crv__work *work, const crv__plane *out)
 {
     const crv__method *method = work->setup->method;
-    crv__fast_state *fast = work->frame->params->use_field ? NULL : work->state;
+    const plan_state *state = state_of(work);
     tiles t = {.work = work,
                .method = method,
-               .estimate_kernel = crv__kernels_estimate(
-                   kernels_for(work), method->info.name, work->setup->context->exact),
+               .estimate_kernel = state->estimate,
                .out = out,
                .row = estimate_row};
-    if (fast) {
-        t.fast = crv__fast_prepare(fast, work->setup, work->frame);
-        t.fast_kernel = crv__fast_kernel_of(fast);
+    if (state->fast) {
+        t.fast = crv__fast_prepare(state->fast, work->setup, work->frame);
+        t.fast_kernel = crv__fast_kernel_of(state->fast);
         run_fast_tiles(&t);
     } else {
         run_tiles(&t);
@@ -248,29 +252,67 @@ static void filter_with(const crv__work *work, crv__filter_kernel kernel, int fi
                       run_filter_tile, &t);
 }
 
-static crv_status plan_create(const crv__setup *setup, const crv__plane *rectangle,
-                              void **state)
+/* ---- plans ---- */
+
+/* The kernels that a plan takes: they index planes with 32 bits. */
+static void choose_kernels(const crv__setup *setup, const crv__plane *plane,
+                           plan_state *state)
 {
-    crv__fast_state *fast;
-    const crv_status status = crv__fast_create(setup, &fast);
-    *state = fast;
-    return status
-               ? crv__fail(&setup->context->logger, status, "plan: no memory for %d x %d",
-                           rectangle->width, rectangle->height)
-               : CRV_OK;
+    const crv__kernels *kernels = setup->context->kernels;
+    state->estimate = NULL;
+    state->filter = NULL;
+    if (!kernels || plane->pitch > INT32_MAX / setup->desc.height)
+        return;
+    const crv__method_id method = crv__method_id_of(setup->method);
+    state->estimate = kernels->estimates[method];
+    if (!setup->context->exact && kernels->lean[method])
+        state->estimate = kernels->lean[method];
+    if (setup->filter)
+        state->filter = kernels->filters[crv__filter_id_of(setup->filter)];
 }
 
-static void plan_destroy(const crv__setup *setup, void *state)
+static crv_status plan_create(const crv__setup *setup, const crv__plane *rectangle,
+                              void **out)
 {
-    crv__fast_destroy(setup, state);
+    const crv_allocator *allocator = &setup->context->allocator;
+    plan_state *state = crv__allocate(allocator, 1, sizeof *state);
+    crv_status status = CRV_ERROR_OUT_OF_MEMORY;
+    if (state) {
+        choose_kernels(setup, rectangle, state);
+        status = crv__fast_create(setup, &state->fast);
+    }
+    if (status == CRV_OK) {
+        *out = state;
+        return CRV_OK;
+    }
+    crv__release(allocator, state, 1, sizeof *state);
+    return crv__fail(&setup->context->logger, status, "plan: no memory for %d x %d",
+                     rectangle->width, rectangle->height);
+}
+
+static void plan_destroy(const crv__setup *setup, void *data)
+{
+    plan_state *state = data;
+    crv__fast_destroy(setup, state->fast);
+    crv__release(&setup->context->allocator, state, 1, sizeof *state);
+}
+
+static bool plan_update(const crv__setup *setup, void *data)
+{
+    plan_state *state = data;
+    if (!crv__fast_update(setup, state->fast))
+        return false;
+    if (state->filter)
+        state->filter =
+            setup->context->kernels->filters[crv__filter_id_of(setup->filter)];
+    return true;
 }
 
 static crv_status run(const crv__work *work, int filter_only, const crv__plane planes[2],
                       const crv__plane **result)
 {
     const crv__filter *filter = work->setup->filter;
-    const crv__filter_kernel kernel =
-        filter ? crv__kernels_filter(kernels_for(work), filter->info.name) : NULL;
+    const crv__filter_kernel kernel = state_of(work)->filter;
     const int32_t passes = filter && !kernel ? filter->passes : 0;
     if (!filter_only)
         estimate(work, &planes[0]);
@@ -285,5 +327,20 @@ static crv_status run(const crv__work *work, int filter_only, const crv__plane p
     return CRV_OK;
 }
 
-const crv__backend crv__cpu_backend = {
-    .name = "cpu", .plan_create = plan_create, .plan_destroy = plan_destroy, .run = run};
+static crv_status open_host(crv_context *context, int32_t index)
+{
+    (void)index; /* there is one */
+    crv__isa_choose(context);
+    if (context->kernels)
+        context->conversions = &context->kernels->conversions;
+    return CRV_OK;
+}
+
+extern const crv__backend crv__cpu_backend;
+const crv__backend crv__cpu_backend = {.name = "cpu",
+                                       .device = CRV_DEVICE_CPU,
+                                       .open = open_host,
+                                       .plan_create = plan_create,
+                                       .plan_destroy = plan_destroy,
+                                       .plan_update = plan_update,
+                                       .run = run};

@@ -18,12 +18,17 @@ enum {
     TABLES_WHATEVER_THE_SIZE = 2 << 20
 };
 
+/* Numbers of things. */
+typedef struct sizes {
+    size_t depths, samples, counts, lists;
+} sizes;
+
 struct crv__fast_state {
     crv__fast fast;
     const crv__fast_kind *kind;
     crv__fast_deal_kernel deal;
-    size_t depth_count, list_count, sample_count; /* allocated */
-    float fx, fy; /* that the tables were made for; 0: none */
+    sizes needed, memory; /* by this plan; what there is */
+    float fx, fy;         /* that the tables were made for; 0: none */
 };
 
 typedef struct fill_job {
@@ -37,7 +42,7 @@ static int32_t wrapped(int64_t value, int32_t size)
 }
 
 /* Places of a plan's pixels and the sizes of all; 0 where the structure does not fit. */
-static int measure(crv__fast_state *s, const crv__setup *setup)
+static bool measure(crv__fast_state *s, const crv__setup *setup)
 {
     crv__fast *fast = &s->fast;
     const crv_gbuffer_desc *d = &setup->desc;
@@ -58,21 +63,24 @@ static int measure(crv__fast_state *s, const crv__setup *setup)
     fast->pitch = (groups | 1) * CRV__FAST_GROUP + 2 * CRV__FAST_PADDING;
     fast->plane = fast->pitch * fast->rows;
     fast->layer_pitch = fast->pitch + (ptrdiff_t)PHASES * fast->plane;
-    s->list_count = (size_t)fast->buckets * PHASES;
-    s->sample_count = s->list_count * (size_t)(fast->walks * fast->steps);
-    s->depth_count = (size_t)fast->layer_pitch * (size_t)d->layers;
+    const size_t lists = (size_t)fast->buckets * PHASES;
+    s->needed = (sizes){.depths = (size_t)fast->layer_pitch * (size_t)d->layers,
+                        .samples = lists * (size_t)(fast->walks * fast->steps),
+                        .counts = lists * (size_t)fast->walks,
+                        .lists = lists};
 
     const double pixels = (double)d->width * d->height;
     const double planes = 4.0 * d->layers + 12 + 4 + (setup->filter ? 4 : 0);
     const double table =
-        (double)s->sample_count * (sizeof(crv__fast_sample) + sizeof(crv__fast_place));
-    const double left = (BYTES_A_PIXEL - planes) * pixels - 4.0 * (double)s->depth_count;
+        (double)s->needed.samples * (sizeof(crv__fast_sample) + sizeof(crv__fast_place));
+    const double left =
+        (BYTES_A_PIXEL - planes) * pixels - 4.0 * (double)s->needed.depths;
     return fast->walks * fast->steps <= CRV__FAST_MOST_SAMPLES && d->layers <= MOST_LAYERS
-           && s->depth_count < INT32_MAX
+           && s->needed.depths < INT32_MAX
            && (table <= left || table <= TABLES_WHATEVER_THE_SIZE);
 }
 
-static int suits(const crv__setup *setup, const crv__fast_kind *kind)
+static bool suits(const crv__setup *setup, const crv__fast_kind *kind)
 {
     const crv_options *o = &setup->options;
     const int32_t size = o->noise_size;
@@ -92,15 +100,30 @@ static void fill_scales(crv__fast *fast, int32_t fineness)
     fast->largest = CRV__FAST_SMALLEST * (1 << OCTAVES) * exp2f(-0.5f * width) * 0.99f;
 }
 
+/* Everything but the memory; false if the plan is better or only computed exactly. */
+static bool plan(crv__fast_state *s, const crv__setup *setup)
+{
+    const crv__kernels *kernels = setup->context->kernels;
+    if (!kernels)
+        return false;
+    s->kind = kernels->fast[crv__method_id_of(setup->method)];
+    s->deal = kernels->deal;
+    if (!suits(setup, s->kind) || !measure(s, setup))
+        return false;
+    fill_scales(&s->fast, s->kind->fineness);
+    s->fx = s->fy = 0;
+    return true;
+}
+
 static crv_status allocate(crv__fast_state *s, const crv_allocator *allocator)
 {
     crv__fast *fast = &s->fast;
-    fast->depth = crv__allocate(allocator, s->depth_count, sizeof(float));
-    fast->samples = crv__allocate(allocator, s->sample_count, sizeof *fast->samples);
-    fast->places = crv__allocate(allocator, s->sample_count, sizeof *fast->places);
-    fast->counts = crv__allocate(allocator, s->list_count * (size_t)fast->walks,
-                                 sizeof *fast->counts);
-    fast->reaches = crv__allocate(allocator, s->list_count, sizeof *fast->reaches);
+    const sizes n = s->memory = s->needed;
+    fast->depth = crv__allocate(allocator, n.depths, sizeof(float));
+    fast->samples = crv__allocate(allocator, n.samples, sizeof *fast->samples);
+    fast->places = crv__allocate(allocator, n.samples, sizeof *fast->places);
+    fast->counts = crv__allocate(allocator, n.counts, sizeof *fast->counts);
+    fast->reaches = crv__allocate(allocator, n.lists, sizeof *fast->reaches);
     return fast->depth && fast->samples && fast->places && fast->counts && fast->reaches
                ? CRV_OK
                : CRV_ERROR_OUT_OF_MEMORY;
@@ -108,19 +131,15 @@ static crv_status allocate(crv__fast_state *s, const crv_allocator *allocator)
 
 crv_status crv__fast_create(const crv__setup *setup, crv__fast_state **state)
 {
-    const crv_allocator *allocator = &setup->context->allocator;
-    const crv__kernels *kernels = crv__kernels_best(setup->context->isa_mask);
-    crv__fast_state measured = {.kind =
-                                    crv__kernels_fast(kernels, setup->method->info.name)};
+    crv__fast_state planned = {0};
     *state = NULL;
-    if (!suits(setup, measured.kind) || !measure(&measured, setup))
+    if (!plan(&planned, setup))
         return CRV_OK;
-    measured.deal = kernels->deal;
-    fill_scales(&measured.fast, measured.kind->fineness);
+    const crv_allocator *allocator = &setup->context->allocator;
     crv__fast_state *s = crv__allocate(allocator, 1, sizeof *s);
     if (!s)
         return CRV_ERROR_OUT_OF_MEMORY;
-    *s = measured;
+    *s = planned;
     *state = s;
     const crv_status status = allocate(s, allocator);
     if (status) {
@@ -136,13 +155,26 @@ void crv__fast_destroy(const crv__setup *setup, crv__fast_state *s)
         return;
     const crv_allocator *allocator = &setup->context->allocator;
     crv__fast *fast = &s->fast;
-    crv__release(allocator, fast->depth, s->depth_count, sizeof(float));
-    crv__release(allocator, fast->samples, s->sample_count, sizeof *fast->samples);
-    crv__release(allocator, fast->places, s->sample_count, sizeof *fast->places);
-    crv__release(allocator, fast->counts, s->list_count * (size_t)fast->walks,
-                 sizeof *fast->counts);
-    crv__release(allocator, fast->reaches, s->list_count, sizeof *fast->reaches);
+    const sizes n = s->memory;
+    crv__release(allocator, fast->depth, n.depths, sizeof(float));
+    crv__release(allocator, fast->samples, n.samples, sizeof *fast->samples);
+    crv__release(allocator, fast->places, n.samples, sizeof *fast->places);
+    crv__release(allocator, fast->counts, n.counts, sizeof *fast->counts);
+    crv__release(allocator, fast->reaches, n.lists, sizeof *fast->reaches);
     crv__release(allocator, s, 1, sizeof *s);
+}
+
+bool crv__fast_update(const crv__setup *setup, crv__fast_state *s)
+{
+    crv__fast_state next = s ? *s : (crv__fast_state){0};
+    if (!plan(&next, setup))
+        return !s;
+    const sizes n = next.needed;
+    if (!s || n.depths > s->memory.depths || n.samples > s->memory.samples
+        || n.counts > s->memory.counts || n.lists > s->memory.lists)
+        return false;
+    *s = next;
+    return true;
 }
 
 static float radius_of_bits(uint32_t bits)

@@ -3,8 +3,8 @@
 #ifndef CRV_CPU_FAST_H
 #define CRV_CPU_FAST_H
 
-#include "core/backend.h"
-#include "cpu/isa.h"
+#include "core/setup.h"
+#include "cpu/kernels/kernel.h"
 
 typedef struct crv__fast_state crv__fast_state;
 
@@ -17,6 +17,10 @@ typedef struct crv__fast_state crv__fast_state;
  */
 crv_status crv__fast_create(const crv__setup *setup, crv__fast_state **state);
 void crv__fast_destroy(const crv__setup *setup, crv__fast_state *state);
+
+/* Makes the state, NULL or not, that of the setup's new options; false, and nothing is
+ * changed, if that takes other memory. */
+bool crv__fast_update(const crv__setup *setup, crv__fast_state *state);
 
 /* Deals the frame's depth out and brings the tables up to its camera. */
 const crv__fast *crv__fast_prepare(crv__fast_state *state, const crv__setup *setup,

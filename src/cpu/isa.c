@@ -3,63 +3,34 @@
  * one by one: the levels of x86-64 are not known to every compiler. */
 #include "cpu/isa.h"
 
-#include <string.h>
+/* crevice_sets.h is made by kernels.cmake: CRV__SET(name, NAME, is_there) for each set,
+ * the fastest first. */
+#define CRV__SET(name, NAME, is_there)                                                   \
+    extern const crv__kernels crv__kernels_##name;                                       \
+    static bool has_##name(void)                                                         \
+    {                                                                                    \
+        return is_there;                                                                 \
+    }
+#include "crevice_sets.h"
+#undef CRV__SET
 
-#ifdef CRV__HAVE_X86
-extern const crv__kernels crv__kernels_sse4, crv__kernels_avx2, crv__kernels_avx512;
-
-static int has_sse4(void)
+static bool has_scalar(void)
 {
-    return __builtin_cpu_supports("sse4.1");
+    return true;
 }
-
-static int has_avx2(void)
-{
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-}
-
-static int has_avx512(void)
-{
-    return has_avx2() && __builtin_cpu_supports("avx512f")
-           && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq")
-           && __builtin_cpu_supports("avx512vl");
-}
-#endif
-
-#ifdef CRV__HAVE_NEON
-extern const crv__kernels crv__kernels_neon;
-
-static int has_neon(void)
-{
-    return 1; /* every AArch64 */
-}
-#endif
 
 static const struct set {
     crv_isa isa;
-    int (*is_there)(void);
+    bool (*is_there)(void);
     const crv__kernels *kernels;
 } SETS[] = {
-/* the fastest first */
-#ifdef CRV__HAVE_X86
-    {CRV_ISA_AVX512, has_avx512, &crv__kernels_avx512},
-    {CRV_ISA_AVX2, has_avx2, &crv__kernels_avx2},
-    {CRV_ISA_SSE4, has_sse4, &crv__kernels_sse4},
-#endif
-#ifdef CRV__HAVE_NEON
-    {CRV_ISA_NEON, has_neon, &crv__kernels_neon},
-#endif
-    {CRV_ISA_SCALAR, NULL, NULL},
+#define CRV__SET(name, NAME, is_there) {CRV_ISA_##NAME, has_##name, &crv__kernels_##name},
+#include "crevice_sets.h"
+#undef CRV__SET
+    {CRV_ISA_SCALAR, has_scalar, NULL},
 };
 
-/* The first of SETS that may be used. */
-static const struct set *best(uint32_t allowed)
-{
-    const struct set *set = SETS;
-    while (set->is_there && !(allowed & (1u << set->isa) && set->is_there()))
-        set++;
-    return set;
-}
+enum { SET_COUNT = sizeof SETS / sizeof SETS[0] };
 
 const char *crv_isa_name(crv_isa isa)
 {
@@ -69,60 +40,24 @@ const char *crv_isa_name(crv_isa isa)
 
 uint32_t crv_isa_available(void)
 {
-    uint32_t mask = 1u << CRV_ISA_SCALAR;
-    for (const struct set *set = SETS; set->is_there; set++) {
-        if (set->is_there())
-            mask |= 1u << set->isa;
+    uint32_t mask = 0;
+    for (int i = 0; i < SET_COUNT; i++) {
+        if (SETS[i].is_there())
+            mask |= 1u << SETS[i].isa;
     }
     return mask;
 }
 
 crv_isa crv_context_isa(const crv_context *context)
 {
-    return context ? best(context->isa_mask)->isa : CRV_ISA_SCALAR;
+    return context ? context->isa : CRV_ISA_SCALAR;
 }
 
-const crv__kernels *crv__kernels_best(uint32_t allowed)
+void crv__isa_choose(crv_context *context)
 {
-    return best(allowed)->kernels;
-}
-
-const crv__conversions *crv__cpu_conversions(const crv_context *context)
-{
-    const crv__kernels *kernels = crv__kernels_best(context->isa_mask);
-    return kernels ? &kernels->conversions : NULL;
-}
-
-static crv__estimate_kernel named(const crv__named_estimate *e, const char *name)
-{
-    while (e->name && strcmp(e->name, name) != 0)
-        e++;
-    return e->run;
-}
-
-crv__estimate_kernel crv__kernels_estimate(const crv__kernels *kernels, const char *name,
-                                           int exact)
-{
-    const crv__estimate_kernel lean =
-        kernels && !exact ? named(kernels->lean, name) : NULL;
-    return lean || !kernels ? lean : named(kernels->estimates, name);
-}
-
-crv__filter_kernel crv__kernels_filter(const crv__kernels *kernels, const char *name)
-{
-    for (const crv__named_filter *e = kernels ? kernels->filters : NULL; e && e->name;
-         e++) {
-        if (strcmp(e->name, name) == 0)
-            return e->run;
-    }
-    return NULL;
-}
-
-const crv__fast_kind *crv__kernels_fast(const crv__kernels *kernels, const char *name)
-{
-    for (const crv__fast_kind *e = kernels ? kernels->fast : NULL; e && e->name; e++) {
-        if (strcmp(e->name, name) == 0)
-            return e;
-    }
-    return NULL;
+    const struct set *set = SETS;
+    while (set->kernels && !(context->isa_mask & (1u << set->isa) && set->is_there()))
+        set++;
+    context->isa = set->isa;
+    context->kernels = set->kernels;
 }

@@ -10,24 +10,37 @@ set(crevice_kernel_sources
     cpu/kernels/depth_tmpl.c cpu/kernels/normals_tmpl.c
     cpu/kernels/bilateral13_tmpl.c cpu/kernels/box4_tmpl.c cpu/kernels/gauss5_tmpl.c)
 
+# crevice_kernels(SET [FEATURE...] [OPTIONS option...]): what the set needs of the machine,
+# as the compiler names it after -m and in __builtin_cpu_supports(). The fastest first.
+set(crevice_sets "/* SPDX-License-Identifier: MIT */\n/* Generated from kernels.cmake. */\n")
 function(crevice_kernels set)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "OPTIONS")
     set(target crevice_kernels_${set})
     string(TOUPPER ${set} SET)
     add_library(${target} OBJECT ${crevice_kernel_sources})
-    target_compile_definitions(${target} PRIVATE CRV_BUILD CRV_STATIC CRV__SIMD_${SET})
-    target_compile_options(${target} PRIVATE ${ARGN})
+    target_compile_definitions(${target} PRIVATE CRV_BUILD CRV_STATIC
+        CRV__SIMD_NAME=${set} CRV__SIMD_HEADER="cpu/simd/${set}.h")
+    target_compile_options(${target} PRIVATE ${arg_OPTIONS})
+    set(is_there true)
+    foreach(feature IN LISTS arg_UNPARSED_ARGUMENTS)
+        target_compile_options(${target} PRIVATE -m${feature})
+        string(APPEND is_there " && __builtin_cpu_supports(\"${feature}\")")
+    endforeach()
     target_include_directories(${target} PRIVATE
         ${PROJECT_SOURCE_DIR}/include ${CMAKE_CURRENT_SOURCE_DIR})
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:crevice_flags>)
     target_sources(crevice PRIVATE $<TARGET_OBJECTS:${target}>)
+    set(crevice_sets "${crevice_sets}CRV__SET(${set}, ${SET}, ${is_there})\n" PARENT_SCOPE)
+    set_property(GLOBAL APPEND PROPERTY CREVICE_SETS ${set})
 endfunction()
 
 if(CMAKE_C_COMPILER_ID MATCHES "GNU|Clang" AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
-    crevice_kernels(sse4 -msse4.1)
-    crevice_kernels(avx2 -mavx2 -mfma)
-    crevice_kernels(avx512 -mavx512f -mavx512bw -mavx512dq -mavx512vl -mprefer-vector-width=512)
-    set_property(SOURCE cpu/isa.c PROPERTY COMPILE_DEFINITIONS CRV__HAVE_X86)
+    crevice_kernels(avx512 avx2 fma avx512f avx512bw avx512dq avx512vl
+        OPTIONS -mprefer-vector-width=512)
+    crevice_kernels(avx2 avx2 fma)
+    crevice_kernels(sse4 sse4.1)
 elseif(CMAKE_C_COMPILER_ID MATCHES "GNU|Clang" AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
-    crevice_kernels(neon)
-    set_property(SOURCE cpu/isa.c PROPERTY COMPILE_DEFINITIONS CRV__HAVE_NEON)
+    crevice_kernels(neon) # every AArch64 has it
 endif()
+file(CONFIGURE OUTPUT crevice_sets.h CONTENT "${crevice_sets}" @ONLY)
+target_include_directories(crevice PRIVATE ${CMAKE_CURRENT_BINARY_DIR})

@@ -11,11 +11,15 @@ static crv_status absent(const crv_logger *logger)
         "use the CPU");
 }
 
-crv_status crv__vulkan_open(crv_context *context, int32_t index)
+static crv_status open_nothing(crv_context *context, int32_t index)
 {
     (void)index;
     return absent(&context->logger);
 }
+
+extern const crv__backend crv__vulkan_backend;
+const crv__backend crv__vulkan_backend = {
+    .name = "vulkan", .device = CRV_DEVICE_VULKAN, .open = open_nothing};
 
 crv_status crv_vulkan_device_info(int32_t index, crv_device_info *info,
                                   const crv_logger *logger)

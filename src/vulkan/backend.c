@@ -285,6 +285,8 @@ static void close_device(crv_context *context)
 }
 
 const crv__backend crv__vulkan_backend = {.name = "vulkan",
+                                          .device = CRV_DEVICE_VULKAN,
+                                          .open = crv__vulkan_open,
                                           .plan_create = plan_create,
                                           .plan_destroy = plan_destroy,
                                           .run = run,

@@ -32,6 +32,9 @@ typedef struct crv__device {
 
 extern const crv__backend crv__vulkan_backend;
 
+/* Gives the context a device of Crevice's own by its number, and its backend. */
+crv_status crv__vulkan_open(crv_context *context, int32_t index);
+
 /* The context's device; NULL where it has none. */
 crv__device *crv__device_of(const crv_context *context);
 

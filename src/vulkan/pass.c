@@ -122,12 +122,7 @@ crv_status crv_vulkan_pass_create(crv_context *context, const crv_options *optio
         status = crv__formats_check(d, desc);
     if (status)
         return status;
-    crv__setup setup = {.context = context,
-                        .method = crv__method_of(options->method),
-                        .options = *options,
-                        .desc = *gbuffer};
-    if (options->filter)
-        setup.filter = crv__filter_of(options->filter);
+    const crv__setup setup = crv__setup_make(context, options, gbuffer);
     status = crv__setup_check(d, &setup);
     if (status)
         return status;

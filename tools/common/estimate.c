@@ -22,18 +22,9 @@ int estimate_open(estimator *e, const common_settings *common, report *r)
     return device_context(common, &r->logger, r, &e->context);
 }
 
-static bool same_desc(const crv_gbuffer_desc *a, const crv_gbuffer_desc *b)
-{
-    return a->width == b->width && a->height == b->height && a->layers == b->layers
-           && a->layer_kind == b->layer_kind && a->guard_left == b->guard_left
-           && a->guard_top == b->guard_top && a->guard_right == b->guard_right
-           && a->guard_bottom == b->guard_bottom && a->origin_x == b->origin_x
-           && a->origin_y == b->origin_y;
-}
-
 void estimate_fit(estimator *e, const crv_gbuffer_desc *desc)
 {
-    if (same_desc(&e->desc, desc))
+    if (crv_gbuffer_desc_equal(&e->desc, desc))
         return;
     crv_gbuffer_destroy(e->gbuffer);
     crv_plan_destroy(e->plan);

@@ -4,14 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-static bool same_desc(const crv_gbuffer_desc *a, const crv_gbuffer_desc *b)
-{
-    return a->width == b->width && a->height == b->height && a->layers == b->layers
-           && a->layer_kind == b->layer_kind && a->guard_left == b->guard_left
-           && a->guard_top == b->guard_top && a->guard_right == b->guard_right
-           && a->guard_bottom == b->guard_bottom;
-}
-
 void facts_compare(frame_facts *first, const io_frame *frame, const char *path, report *r)
 {
     const frame_facts now = {true, frame->has_normals, frame->desc,
@@ -27,7 +19,7 @@ void facts_compare(frame_facts *first, const io_frame *frame, const char *path, 
         || now.display_height != first->display_height)
         report_warning(r, "%s: is %dx%d, the first frame %dx%d", path, now.display_width,
                        now.display_height, first->display_width, first->display_height);
-    else if (!same_desc(&now.desc, &first->desc))
+    else if (!crv_gbuffer_desc_equal(&now.desc, &first->desc))
         report_warning(r,
                        "%s: has another data window, other layers or layers of another "
                        "kind than the first frame",

@@ -124,4 +124,4 @@ static inline vf accessibility(const crv__fast_pixels *at, const crv__fast_list 
     return at->near ? common_near(at, list) : common(at, list);
 }
 
-CRV__FAST_KERNEL(alchemy)
+CRV__FAST_KERNEL(alchemy, .on_grid = true, .fineness = 2)

@@ -336,14 +336,15 @@ CRV__INLINE int crv__fast_run(const crv__frame *f, const crv__fast *fast,
     return far;
 }
 
-/* Defines the kernel of a method from its static function accessibility(). */
-#define CRV__FAST_KERNEL(name)                                                           \
-    int CRV__NAME(name##_fast)(const crv__frame *f, const crv__fast *fast,               \
-                               const crv__fast_tile *tile, const crv__plane *out);       \
-    int CRV__NAME(name##_fast)(const crv__frame *f, const crv__fast *fast,               \
-                               const crv__fast_tile *tile, const crv__plane *out)        \
+/* Defines a method's kernel from its static function accessibility(); what follows the
+ * name are members of crv__fast_kind, designated. */
+#define CRV__FAST_KERNEL(name, ...)                                                      \
+    static int run(const crv__frame *f, const crv__fast *fast,                           \
+                   const crv__fast_tile *tile, const crv__plane *out)                    \
     {                                                                                    \
         return crv__fast_run(f, fast, tile, out, accessibility);                         \
-    }
+    }                                                                                    \
+    extern const crv__fast_kind CRV__NAME(name##_fast);                                  \
+    const crv__fast_kind CRV__NAME(name##_fast) = {.run = run, __VA_ARGS__};
 
 #endif

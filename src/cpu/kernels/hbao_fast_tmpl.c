@@ -194,4 +194,4 @@ static inline vf accessibility(const crv__fast_pixels *at, const crv__fast_list 
     return general(at, list);
 }
 
-CRV__FAST_KERNEL(hbao)
+CRV__FAST_KERNEL(hbao, .is_walk = true, .in_pairs = true, .on_grid = true, .fineness = 2)

@@ -4,7 +4,10 @@
 #define CRV_CPU_KERNELS_KERNEL_H
 
 #include "core/conversions.h"
+#include "core/ids.h"
 #include "cpu/kernels/fast.h"
+
+#include <stdbool.h>
 
 /* Accessibility of the pixels x0 to x1 - 1 of row y, intensity applied, in [0, 1],
  * background 1, to out[0 .. x1 - x0). */
@@ -25,32 +28,23 @@ enum { CRV__FILTER_TILE_WIDTH = 128, CRV__FILTER_TILE_HEIGHT = 84 };
 typedef void (*crv__filter_kernel)(const crv__frame *frame, const crv__plane *input,
                                    const crv__plane *out, crv__tile tile);
 
-typedef struct crv__named_estimate {
-    const char *name;
-    crv__estimate_kernel run;
-} crv__named_estimate;
-
-typedef struct crv__named_filter {
-    const char *name;
-    crv__filter_kernel run;
-} crv__named_filter;
-
 /* A method's kernel in the fast structure, and its samples. 0 or 1 each: walks of steps
  * in directions, not the points of a pattern; an even number of directions or points
  * comes in opposite pairs; steps are rounded to even, not half up; those to the pixel
  * itself are kept; those of 32 pixels or more are rounded to multiples of the tile's 4.
  * Projected radii are quantised to 2^fineness buckets an octave. */
 typedef struct crv__fast_kind {
-    const char *name;
     crv__fast_kernel run;
-    int32_t is_walk, in_pairs, is_rounded, keeps_own, on_grid, fineness;
+    bool is_walk, in_pairs, is_rounded, keeps_own, on_grid;
+    int32_t fineness;
 } crv__fast_kind;
 
+/* NULL: there is none. */
 typedef struct crv__kernels {
-    const crv__named_estimate *estimates; /* end with a NULL name */
-    const crv__named_estimate *lean;      /* not rounded as the scalar code */
-    const crv__named_filter *filters;
-    const crv__fast_kind *fast;
+    crv__estimate_kernel estimates[CRV__METHOD_COUNT];
+    crv__estimate_kernel lean[CRV__METHOD_COUNT]; /* not rounded as the scalar code */
+    const crv__fast_kind *fast[CRV__METHOD_COUNT];
+    crv__filter_kernel filters[CRV__FILTER_COUNT];
     crv__fast_deal_kernel deal;
     crv__conversions conversions;
 } crv__kernels;

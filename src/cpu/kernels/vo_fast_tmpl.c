@@ -69,4 +69,5 @@ static inline vf accessibility(const crv__fast_pixels *at, const crv__fast_list 
     return at->near ? common_near(at, list) : common(at, list);
 }
 
-CRV__FAST_KERNEL(vo)
+CRV__FAST_KERNEL(vo, .in_pairs = true, .is_rounded = true, .keeps_own = true,
+                 .fineness = 4)

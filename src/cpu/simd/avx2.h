@@ -5,14 +5,12 @@
 
 #include <immintrin.h>
 
-#define CRV__SIMD_NAME       avx2
 #define CRV__LANES           8
 #define CRV__FMA_ROUNDS_ONCE 1
 
 typedef float vf __attribute__((vector_size(32)));
 typedef int32_t vi __attribute__((vector_size(32)));
-
-#include "lanewise.h"
+typedef vi vm; /* all bits of a lane */
 
 CRV__INLINE vf vf_set(float a)
 {
@@ -173,5 +171,7 @@ CRV__INLINE void vf_join4(float *to, const vf in[4])
         _mm_storeu_ps(to + 16 + 4 * i, _mm256_extractf128_ps(row[i], 1));
     }
 }
+
+#include "lanewise.h"
 
 #endif

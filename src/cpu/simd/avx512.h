@@ -5,7 +5,6 @@
 
 #include <immintrin.h>
 
-#define CRV__SIMD_NAME       avx512
 #define CRV__LANES           16
 #define CRV__FMA_ROUNDS_ONCE 1
 
@@ -123,11 +122,15 @@ CRV__INLINE vf vf_fma(vf a, vf b, vf c)
     return _mm512_fmadd_ps(a, b, c);
 }
 
-/* 14 bits. */
-#define CRV__ROUGH_IS_FAIR
 CRV__INLINE vf vf_rsqrt_rough(vf a)
 {
     return _mm512_rsqrt14_ps(a);
+}
+
+/* 14 bits. */
+CRV__INLINE vf vf_rsqrt_fair(vf a)
+{
+    return vf_rsqrt_rough(a);
 }
 
 CRV__INLINE vf vf_rcp_rough(vf a)
@@ -201,6 +204,31 @@ CRV__INLINE void vf_join4(float *to, const vf in[4])
     vf_store(to + 16, _mm512_permutex2var_ps(even0, high, odd0));
     vf_store(to + 32, _mm512_permutex2var_ps(even1, low, odd1));
     vf_store(to + 48, _mm512_permutex2var_ps(even1, high, odd1));
+}
+
+CRV__INLINE int32_t vm_count(vm mask)
+{
+    return __builtin_popcount(mask);
+}
+
+CRV__INLINE int32_t vi_largest(vi a)
+{
+    return _mm512_reduce_max_epi32((__m512i)a);
+}
+
+/* Where limit - q is negative, b is made so. Numbers from 0 on are in the order of their
+ * bits, all others below them; and the ports that multiply are left alone. */
+CRV__INLINE vf vf_max_within(vf a, vf b, vf q, vf limit)
+{
+    const __m512i sign = _mm512_set1_epi32(INT32_MIN);
+    const __m512i within =
+        _mm512_ternarylogic_epi32((__m512i)b, (__m512i)(limit - q), sign, 0xf8);
+    return (vf)_mm512_max_epi32((__m512i)a, within);
+}
+
+CRV__INLINE vf vf_min_abs(vf a, vf b)
+{
+    return _mm512_range_ps(a, b, 2 << 2 | 2);
 }
 
 #endif

@@ -5,14 +5,12 @@
 
 #include <arm_neon.h>
 
-#define CRV__SIMD_NAME       neon
 #define CRV__LANES           4
 #define CRV__FMA_ROUNDS_ONCE 1
 
 typedef float vf __attribute__((vector_size(16)));
 typedef int32_t vi __attribute__((vector_size(16)));
-
-#include "lanewise.h"
+typedef vi vm; /* all bits of a lane */
 
 CRV__INLINE vf vf_set(float a)
 {
@@ -153,5 +151,7 @@ CRV__INLINE void vf_join4(float *to, const vf in[4])
     const float32x4x4_t all = {{in[0], in[1], in[2], in[3]}};
     vst4q_f32(to, all);
 }
+
+#include "lanewise.h"
 
 #endif

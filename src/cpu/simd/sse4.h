@@ -5,14 +5,12 @@
 
 #include <smmintrin.h>
 
-#define CRV__SIMD_NAME       sse4
 #define CRV__LANES           4
 #define CRV__FMA_ROUNDS_ONCE 0
 
 typedef float vf __attribute__((vector_size(16)));
 typedef int32_t vi __attribute__((vector_size(16)));
-
-#include "lanewise.h"
+typedef vi vm; /* all bits of a lane */
 
 CRV__INLINE vf vf_set(float a)
 {
@@ -155,5 +153,7 @@ CRV__INLINE void vf_join4(float *to, const vf in[4])
     vf_store(to + 8, c);
     vf_store(to + 12, d);
 }
+
+#include "lanewise.h"
 
 #endif

@@ -2,7 +2,7 @@
 /*
  * The vocabulary of the kernels: vectors of CRV__LANES floats (vf), as many 32-bit
  * integers (vi), and masks of as many lanes (vm). A kernel is compiled once per
- * instruction set with one of CRV__SIMD_SSE4, _AVX2, _AVX512 or _NEON defined.
+ * instruction set, with CRV__SIMD_NAME and CRV__SIMD_HEADER defined (kernels.cmake).
  *
  * + - * / and the bit operations are the compiler's own on vf and vi. Everything is
  * rounded as the scalar code is, but for the vf_rsqrt family and where vf_fma is written:
@@ -18,10 +18,17 @@
  *   vf_sqrt vf_floor vf_fma  exact; fma rounds twice where the set has none
  *   vf_rsqrt                 1/sqrt, relative error < 1e-6; not for denormal numbers
  *   vf_rsqrt_rough           relative error < 4e-4; at 0 infinite or a NaN
+ *   vf_rsqrt_fair            relative error < 7e-5; not for denormal numbers
  *   vf_rcp_rough             1/a, relative error < 4e-4
  *   vi_trunc vi_round vf_of  conversions; the value must fit
  *   vi_floor                 rounded down; negative or INT32_MAX where it does not fit or
  *                            is a NaN
+ *   vm_count                 how many lanes are set
+ *   vi_largest               the largest lane
+ *   vf_max_within            (a, b, q, limit): the larger of a >= 0 and, if q < limit, b;
+ *                            at q = limit either. If b is the NaN that an operation made
+ *                            out of numbers: a
+ *   vf_min_abs               the smaller of |a| and b >= 0; b if a is a NaN
  *   vi_below                 0 <= a < n, n > 0
  *   vf_gather                base[index]; 0 and no access where the mask is clear, though
  *                            base[0] may be read
@@ -36,17 +43,7 @@
 #define CRV__INLINE   static inline __attribute__((always_inline, unused))
 #define CRV__NOINLINE static __attribute__((noinline))
 
-#if defined(CRV__SIMD_AVX512)
-#include "avx512.h"
-#elif defined(CRV__SIMD_AVX2)
-#include "avx2.h"
-#elif defined(CRV__SIMD_SSE4)
-#include "sse4.h"
-#elif defined(CRV__SIMD_NEON)
-#include "neon.h"
-#else
-#error "no instruction set is chosen"
-#endif
+#include CRV__SIMD_HEADER /* "cpu/simd/SET.h" */
 
 /* The name of something that is compiled once per set. */
 #define CRV__JOIN_(a, b) crv__##a##_##b
@@ -103,58 +100,6 @@ CRV__INLINE vf vf_rcp(vf a)
     return rough * vf_fma(-a, rough, vf_set(2));
 }
 
-/* 1/sqrt, relative error < 7e-5. */
-CRV__INLINE vf vf_rsqrt_fair(vf a)
-{
-#ifdef CRV__ROUGH_IS_FAIR
-    return vf_rsqrt_rough(a);
-#else
-    return vf_rsqrt(a);
-#endif
-}
-
-/* The larger of a >= 0 and, where q < limit, b; at q = limit either. Where b is the NaN
- * that an operation made out of numbers: a. */
-CRV__INLINE vf vf_max_within(vf a, vf b, vf q, vf limit)
-{
-#if defined(CRV__SIMD_AVX512)
-    /* Where limit - q is negative, b is made so. Numbers from 0 on are in the order of
-     * their bits, all others below them; and the ports that multiply are left alone. */
-    const __m512i sign = _mm512_set1_epi32(INT32_MIN);
-    const __m512i within =
-        _mm512_ternarylogic_epi32((__m512i)b, (__m512i)(limit - q), sign, 0xf8);
-    return (vf)_mm512_max_epi32((__m512i)a, within);
-#else
-    return vf_max(vf_select(vf_lt(q, limit), b, vf_zero()), a);
-#endif
-}
-
-/* How many lanes are set. */
-CRV__INLINE int32_t vm_count(vm mask)
-{
-#if defined(CRV__SIMD_AVX512)
-    return __builtin_popcount(mask);
-#else
-    int32_t count = 0;
-    for (int32_t i = 0; i < CRV__LANES; i++)
-        count -= ((vi)mask)[i];
-    return count;
-#endif
-}
-
-/* The largest lane. */
-CRV__INLINE int32_t vi_largest(vi a)
-{
-#if defined(CRV__SIMD_AVX512)
-    return _mm512_reduce_max_epi32((__m512i)a);
-#else
-    int32_t largest = a[0];
-    for (int32_t i = 1; i < CRV__LANES; i++)
-        largest = a[i] > largest ? a[i] : largest;
-    return largest;
-#endif
-}
-
 /* a where the mask is set, else 0. */
 CRV__INLINE vf vf_where(vm mask, vf a)
 {
@@ -164,16 +109,6 @@ CRV__INLINE vf vf_where(vm mask, vf a)
 CRV__INLINE vf vf_abs(vf a)
 {
     return vf_of_bits(vf_bits(a) & vi_set(0x7fffffff));
-}
-
-/* The smaller of |a| and b >= 0; b where a is a NaN. */
-CRV__INLINE vf vf_min_abs(vf a, vf b)
-{
-#if defined(CRV__SIMD_AVX512)
-    return _mm512_range_ps(a, b, 2 << 2 | 2);
-#else
-    return vf_min(vf_abs(a), b);
-#endif
 }
 
 CRV__INLINE vf vf_clamp01(vf a)
