@@ -25,6 +25,27 @@ static bool refuse_to_open(const char *path, const crv_logger *log)
     return false;
 }
 
+/* A PLY without these lines sends assimp's reader beyond the file's end, or round for
+ * ever. */
+static bool is_sound_ply(FILE *file)
+{
+    enum { MAX_HEADER_LINES = 10000 };
+    char line[512] = "";
+    bool has_format = false;
+    rewind(file);
+    for (int i = 0; i < MAX_HEADER_LINES && fgets(line, sizeof line, file); i++) {
+        has_format = has_format || strncmp(line, "format ", 7) == 0;
+        if (strncmp(line, "end_header", 10) == 0)
+            return has_format;
+    }
+    return false;
+}
+
+static bool is_ply(const unsigned char header[12])
+{
+    return memcmp(header, "ply", 3) == 0 && (header[3] == '\n' || header[3] == '\r');
+}
+
 bool check_mesh_file(const char *path, const crv_logger *log)
 {
     unsigned char header[12] = {0};
@@ -44,9 +65,16 @@ bool check_mesh_file(const char *path, const crv_logger *log)
     if (!file)
         return refuse_to_open(path, log);
     const size_t got = fread(header, 1, sizeof header, file);
+    const bool bad_ply = got >= 4 && is_ply(header) && !is_sound_ply(file);
     fclose(file);
     if (got == 0) {
         scene_log(log, CRV_LOG_ERROR, path, "is empty; export the model again");
+        return false;
+    }
+    if (bad_ply) {
+        scene_log(log, CRV_LOG_ERROR, path,
+                  "is truncated or damaged: its PLY header has no end; copy or export it "
+                  "again");
         return false;
     }
     if (stated_glb_length(header) > (uint64_t)info.st_size) {

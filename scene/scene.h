@@ -24,6 +24,17 @@ typedef struct scene scene;
  */
 int scene_load(const char *path, scene **out, const crv_logger *log);
 
+/* Files are read in a child process, so that a reader which crashes or hangs on a damaged
+ * file ends as an error line. What the child may take: */
+typedef struct scene_limits {
+    double timeout_s;     /* 0: ten minutes */
+    int64_t memory_bytes; /* 0: the machine's memory */
+} scene_limits;
+
+/* scene_load() with limits of one's own; NULL: the defaults. */
+int scene_load_limited(const char *path, const scene_limits *limits, scene **out,
+                       const crv_logger *log);
+
 /*
  * A scene made in code: "NAME" or "NAME,KEY=VALUE". Names: scene_builtin_name(0 ...),
  * NULL beyond. "courtyard" is the demo: columns, steps, spheres in contact, a gear-like

@@ -31,6 +31,7 @@ render 1 'cut.glb: ' cut.glb
 render 1 'text.glb: ' text.glb
 render 1 'points.obj: ' points.obj # it has no face
 render 2 'builtin:spheer: .*sphere' builtin:spheer
+render 2 "--import-timeout.*0.01 to 1000000 seconds" $m --import-timeout 0
 render 2 'MODEL is missing'
 render 2 'radius: 0 ' $m --radius 0
 render 2 'radius: -1 ' $m --radius -1

@@ -62,6 +62,15 @@ good render builtin:sphere --size 33x21 -o out5.pfm --layers 4 --layer-kind soli
 good render builtin:sphere --size 1x1 -o out6.png --guard-px 0 --normals-from face
 [ -s "s p ä.png" ] || fail "a name with spaces"
 
+# A camera that looks away is told of.
+for command in render gbuffer reference; do
+    good $command builtin:sphere --size 16x9 -o away.exr --eye 0,9,0 --target 0,99,0
+    grep -q '^crevice: warning: builtin:sphere: nothing of it is in view' stderr.txt ||
+        fail "$command: nothing in view, and no word of it"
+done
+good render builtin:sphere --size 16x9 -o toward.exr
+grep -q 'nothing of it' stderr.txt && fail "a warning of a sphere that is in view"
+
 # A mesh from a file, and an option without effect, which is told of but no error.
 cat >tetra.obj <<'OBJ'
 v 0 0 0
@@ -78,6 +87,7 @@ good render tetra.obj $small -o out7.png --tau 2 --falloff linear --filter none 
 grep -q '^crevice: warning: filter_depth' stderr.txt || fail "no warning of a useless option"
 [ "$(grep -c '^crevice: warning: filter_depth' stderr.txt)" -eq 1 ] || fail "told twice"
 grep -q 'tetra.obj: 4 triangles' stderr.txt || fail "tetra.obj has four triangles"
+
 
 # A signal while a file is being written waits until it is whole.
 "$tool" gbuffer builtin:courtyard --size 1600x900 -o big.exr 2>stderr.txt &

@@ -135,10 +135,11 @@ int view_check(const view_settings *s, report *r)
 
 int view_load(const view_settings *s, scene **out, report *r)
 {
+    const scene_limits limits = {.timeout_s = s->import_timeout_s.value};
     const char *name = builtin_name(s->model);
     const double start = report_seconds();
     const int result = name ? scene_builtin(name, out, &r->logger)
-                            : scene_load(s->model, out, &r->logger);
+                            : scene_load_limited(s->model, &limits, out, &r->logger);
 
     if (result != 0)
         return EXIT_FAILED;
@@ -219,6 +220,18 @@ static int choose_view(const view_settings *s, const scene *model, scene_view *v
     return EXIT_DONE;
 }
 
+/* Whether any pixel inside the guard band shows a surface. */
+static bool shows_something(const scene_gbuffer *g)
+{
+    const crv_gbuffer_desc *d = &g->desc;
+
+    for (int32_t y = d->guard_top; y < d->height - d->guard_bottom; y++)
+        for (int32_t x = d->guard_left; x < d->width - d->guard_right; x++)
+            if (isfinite(g->depth[0][(size_t)y * (size_t)d->width + (size_t)x]))
+                return true;
+    return false;
+}
+
 static void tell_view(const scene_view *v, report *r)
 {
     bool ortho = v->projection == CRV_ORTHOGRAPHIC;
@@ -255,6 +268,12 @@ int view_render(const view_settings *s, const scene *model, bool texture_frames,
     tell_view(&request.view, r);
     if (scene_render_gbuffer(model, &request, out, &r->logger) != 0)
         return EXIT_FAILED;
+    if (!shows_something(out))
+        report_warning(
+            r,
+            "%s: nothing of it is in view; change --eye, --target or --vfov, or "
+            "leave them out to have it framed",
+            s->model);
     report_info(r, "G-buffer %dx%d, guard band %d px, layers %d: %.2f s", s->size.width,
                 s->size.height, request.guard_px, request.layers,
                 report_seconds() - start);

@@ -16,10 +16,20 @@ typedef struct view_settings {
     arg_vector eye, target, up;
     arg_number vfov_deg, ortho;
     arg_int layers, layer_kind, normals_from, guard_px;
+    arg_number import_timeout_s;
 } view_settings;
 
 extern const arg_table view_camera;  /* --size, --eye ... */
 extern const arg_table view_buffers; /* --layers ... */
+
+/* How long a model may take to be read. */
+#define VIEW_IMPORT_ROW                                                                  \
+    {                                                                                    \
+        .name = "--import-timeout", .value = "S", .type = ARG_NUMBER, .min = 0.01,       \
+        .max = 1e6, .unit = "seconds", .initial = "600",                                 \
+        .offset = offsetof(view_settings, import_timeout_s),                             \
+        .help = "give up a model file whose reader takes longer"                         \
+    }
 
 #define VIEW_MODEL_ROW                                                                   \
     {                                                                                    \

@@ -9,6 +9,7 @@
 
 static const arg gbuffer_rows[] = {
     VIEW_MODEL_ROW,
+    VIEW_IMPORT_ROW,
     {.name = "--output",
      .short_name = 'o',
      .value = "FILE",

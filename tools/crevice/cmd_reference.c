@@ -24,6 +24,7 @@ static const char *const kinds[] = {"full", "visible", NULL};
 
 static const arg file_rows[] = {
     VIEW_MODEL_ROW,
+    VIEW_IMPORT_ROW,
     {.name = "--output",
      .short_name = 'o',
      .value = "FILE",

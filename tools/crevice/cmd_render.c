@@ -12,6 +12,7 @@ static const char *const shades[] = {"ao", "lit", "lit-no-ao", NULL};
 
 static const arg render_rows[] = {
     VIEW_MODEL_ROW,
+    VIEW_IMPORT_ROW,
     {.name = "--output",
      .short_name = 'o',
      .value = "FILE",

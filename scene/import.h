@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * import.h: what a model file holds, read in a child process: readers of forty formats
+ * crash, hang and ask for all memory on files that are damaged. Nothing that the child
+ * says is believed before it has been checked.
+ */
+#ifndef CREVICE_SCENE_IMPORT_H
+#define CREVICE_SCENE_IMPORT_H
+
+#include "mesh.h"
+#include "scene.h"
+
+/* What a reader finds. */
+typedef struct import {
+    mesh mesh;
+} import;
+
+void import_free(import *found);
+
+/* Reads the file in a child process. Returns 0, or -1 after one error line, whatever
+ * becomes of the child. limits NULL: the defaults. */
+int import_file(const char *path, const scene_limits *limits, import *out,
+                const crv_logger *log);
+
+/* import_pipe.c: messages and the result through a pipe. */
+
+/* A logger of the child that sends lines to this descriptor, *fd. */
+crv_logger import_pipe_logger(int *fd);
+
+/* Returns whether all of it could be written. */
+bool import_pipe_send(int fd, const import *found);
+
+typedef enum import_end {
+    IMPORT_DONE,    /* a complete result */
+    IMPORT_NOTHING, /* the pipe ended before one */
+    IMPORT_TIMEOUT,
+    IMPORT_DAMAGED, /* what came makes no sense */
+    IMPORT_NO_MEMORY
+} import_end;
+
+/* Reads until the result is complete, the pipe ends or the clock (CLOCK_MONOTONIC, in
+ * seconds) passes `deadline`. Messages go to log; *errors counts those of errors. */
+import_end import_pipe_receive(int fd, double deadline, import *out, int *errors,
+                               const crv_logger *log);
+
+/* Seconds on CLOCK_MONOTONIC. */
+double import_clock(void);
+
+#endif

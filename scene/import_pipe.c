@@ -1,0 +1,219 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Both ends are the same program, so that structs travel as they are. Records: a head,
+ * then its bytes. The receiver bounds every size and every index.
+ */
+#define _POSIX_C_SOURCE 200809L
+#include "import.h"
+
+#include <errno.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { RECORD_MESSAGE = 1, RECORD_RESULT = 2, MAX_LINE = 1023, MAX_MESSAGES = 100 };
+
+typedef struct record {
+    int32_t kind, level; /* level: of a message */
+    uint64_t size;       /* of the text, or the head of the result */
+} record;
+
+typedef struct result_head {
+    uint64_t vertex_count, triangle_count, colour_count, dropped_triangles;
+} result_head;
+
+void import_free(import *found)
+{
+    mesh_free(&found->mesh);
+}
+
+double import_clock(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static bool send_bytes(int fd, const void *data, size_t size)
+{
+    const char *bytes = data;
+    while (size > 0) {
+        const ssize_t sent = write(fd, bytes, size);
+        if (sent < 0 && errno == EINTR)
+            continue;
+        if (sent <= 0)
+            return false;
+        bytes += sent;
+        size -= (size_t)sent;
+    }
+    return true;
+}
+
+static void send_message(void *user, crv_log_level level, const char *line)
+{
+    const size_t length = strlen(line);
+    const record head = {.kind = RECORD_MESSAGE,
+                         .level = (int32_t)level,
+                         .size = length < MAX_LINE ? length : MAX_LINE};
+    if (send_bytes(*(int *)user, &head, sizeof head))
+        send_bytes(*(int *)user, line, (size_t)head.size);
+}
+
+crv_logger import_pipe_logger(int *fd)
+{
+    return (crv_logger){send_message, fd};
+}
+
+/* One array of the result. */
+typedef struct part {
+    void **data;
+    uint64_t count;
+    size_t element_size;
+    size_t spare; /* bytes behind it */
+} part;
+
+enum { PART_COUNT = 6 };
+
+static void list_parts(import *i, const result_head *h, part parts[PART_COUNT])
+{
+    mesh *m = &i->mesh;
+    const part list[PART_COUNT] = {
+        {(void **)&m->positions, h->vertex_count, 3 * sizeof(float), sizeof(float)},
+        {(void **)&m->normals, h->vertex_count, 3 * sizeof(float), 0},
+        {(void **)&m->uvs, h->vertex_count, 2 * sizeof(float), 0},
+        {(void **)&m->indices, h->triangle_count, 3 * sizeof(uint32_t), 0},
+        {(void **)&m->materials, h->triangle_count, sizeof(uint32_t), 0},
+        {(void **)&m->colours, h->colour_count, 3 * sizeof(float), 0}};
+    memcpy(parts, list, sizeof list);
+}
+
+bool import_pipe_send(int fd, const import *found)
+{
+    const mesh *m = &found->mesh;
+    const record head = {.kind = RECORD_RESULT, .size = sizeof(result_head)};
+    const result_head counts = {.vertex_count = m->vertex_count,
+                                .triangle_count = m->triangle_count,
+                                .colour_count = m->colour_count,
+                                .dropped_triangles = m->dropped_triangles};
+import copy = * found;
+    part parts[PART_COUNT];
+    list_parts(&copy, &counts, parts);
+    if (!send_bytes(fd, &head, sizeof head) || !send_bytes(fd, &counts, sizeof counts))
+        return false;
+    for (int i = 0; i < PART_COUNT; i++)
+        if (!send_bytes(fd, *parts[i].data,
+                        (size_t)parts[i].count * parts[i].element_size))
+            return false;
+    return true;
+}
+
+static import_end receive_bytes(int fd, double deadline, void *data, size_t size)
+{
+    char *bytes = data;
+    while (size > 0) {
+        struct pollfd ready = {.fd = fd, .events = POLLIN};
+        const double left = deadline - import_clock();
+        if (left <= 0.0)
+            return IMPORT_TIMEOUT;
+        const int found =
+            poll(&ready, 1, left < 1000.0 ? (int)(left * 1e3) + 1 : 1000000);
+        if (found == 0 || (found < 0 && errno == EINTR))
+            continue;
+        const ssize_t got = found < 0 ? -1 : read(fd, bytes, size);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got <= 0)
+            return IMPORT_NOTHING;
+        bytes += got;
+        size -= (size_t)got;
+    }
+    return IMPORT_DONE;
+}
+
+static import_end receive_message(int fd, double deadline, const record *head,
+                                  int *errors, const crv_logger *log)
+{
+    char line[MAX_LINE + 1];
+    if (head->size > MAX_LINE || head->level < CRV_LOG_ERROR
+        || head->level > CRV_LOG_INFO)
+        return IMPORT_DAMAGED;
+    const import_end end = receive_bytes(fd, deadline, line, (size_t)head->size);
+    if (end != IMPORT_DONE)
+        return end;
+    for (size_t i = 0; i < head->size; i++)
+        if ((unsigned char)line[i] < 32)
+            line[i] = ' ';
+    line[head->size] = '\0';
+    *errors += head->level == CRV_LOG_ERROR;
+    if (log && log->fn)
+        log->fn(log->user, (crv_log_level)head->level, line);
+    return IMPORT_DONE;
+}
+
+/* Whether triangles and materials are what mesh_add_triangle() makes of them. */
+static bool is_sound(const mesh *m)
+{
+    for (size_t t = 0; t < m->triangle_count; t++) {
+        if (m->materials[t] >= m->colour_count)
+            return false;
+        for (size_t k = 3 * t; k < 3 * t + 3; k++)
+            if (m->indices[k] >= m->vertex_count
+                || !mesh_usable_position(mesh_position(m, m->indices[k]))
+                || !(v3_length(mesh_normal(m, m->indices[k])) < 2.0))
+                return false;
+    }
+    for (size_t i = 0; i < 3 * m->colour_count; i++)
+        if (!(m->colours[i] >= 0.0f && m->colours[i] <= 1.0f))
+            return false;
+    return true;
+}
+
+static import_end receive_result(int fd, double deadline, const record *head, import *out)
+{
+    result_head counts;
+    part parts[PART_COUNT];
+    if (head->size != sizeof counts)
+        return IMPORT_DAMAGED;
+    import_end end = receive_bytes(fd, deadline, &counts, sizeof counts);
+    if (end != IMPORT_DONE)
+        return end;
+    if (counts.vertex_count > UINT32_MAX || counts.triangle_count > UINT32_MAX
+        || counts.colour_count > UINT32_MAX)
+        return IMPORT_DAMAGED;
+    list_parts(out, &counts, parts);
+    for (int i = 0; i < PART_COUNT && end == IMPORT_DONE; i++) {
+        const size_t size = (size_t)parts[i].count * parts[i].element_size;
+        *parts[i].data = malloc(size + parts[i].spare + 1);
+        if (!*parts[i].data)
+            return IMPORT_NO_MEMORY;
+        end = receive_bytes(fd, deadline, *parts[i].data, size);
+    }
+    out->mesh.vertex_count = out->mesh.vertex_capacity = (size_t)counts.vertex_count;
+    out->mesh.triangle_count = out->mesh.triangle_capacity =
+        (size_t)counts.triangle_count;
+    out->mesh.colour_count = out->mesh.colour_capacity = (size_t)counts.colour_count;
+    out->mesh.dropped_triangles = (size_t)counts.dropped_triangles;
+    if (end == IMPORT_DONE && !is_sound(&out->mesh))
+        end = IMPORT_DAMAGED;
+    return end;
+}
+
+import_end import_pipe_receive(int fd, double deadline, import *out, int *errors,
+                               const crv_logger *log)
+{
+    for (int messages = 0; messages < MAX_MESSAGES; messages++) {
+        record head;
+        import_end end = receive_bytes(fd, deadline, &head, sizeof head);
+        if (end == IMPORT_DONE && head.kind == RECORD_RESULT)
+            return receive_result(fd, deadline, &head, out);
+        if (end == IMPORT_DONE)
+            end = head.kind == RECORD_MESSAGE
+                      ? receive_message(fd, deadline, &head, errors, log)
+                      : IMPORT_DAMAGED;
+        if (end != IMPORT_DONE)
+            return end;
+    }
+    return IMPORT_DAMAGED;
+}
