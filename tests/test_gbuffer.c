@@ -78,6 +78,17 @@ static double encode(const fixture *f, const crv_depth_format *format, int32_t i
         else
             standard = far * (d - n) / (d * (far - n));
         return format->encoding == CRV_DEPTH_REVERSED ? 1 - standard : standard;
+    case CRV_DEPTH_NORMALISED:
+        return isinf(d) ? 1 : (d - n) / (far - n);
+    case CRV_DEPTH_NORMALISED_REVERSED:
+        return isinf(d) ? 0 : (far - d) / (far - n);
+    case CRV_DEPTH_GL: /* z / w of glFrustum's and glOrtho's matrices */
+        if (isinf(d))
+            return 1;
+        return flat ? (2 * d - far - n) / (far - n)
+                    : ((far + n) * d - 2 * far * n) / ((far - n) * d);
+    case CRV_DEPTH_LOGARITHMIC:
+        return isinf(d) ? 1 : log(1 + d) / log(1 + far);
     case CRV_DEPTH_PLANAR:
         break;
     }
@@ -127,14 +138,21 @@ static void every_encoding_gives_the_same_image(void **state)
 {
     (void)state;
     static const crv_depth_format FORMATS[] = {
-        {CRV_DEPTH_RADIAL, 0, 0, INFINITY},      {CRV_DEPTH_DISPARITY, 0, 0, 0},
-        {CRV_DEPTH_HARDWARE, 0.5f, 100, 0},      {CRV_DEPTH_REVERSED, 0.5f, 100, 0},
-        {CRV_DEPTH_HARDWARE, 0.5f, INFINITY, 0}, {CRV_DEPTH_REVERSED, 0.5f, INFINITY, 0},
+        {CRV_DEPTH_RADIAL, 0, 0, INFINITY},
+        {CRV_DEPTH_DISPARITY, 0, 0, 0},
+        {CRV_DEPTH_HARDWARE, 0.5f, 100, 0},
+        {CRV_DEPTH_REVERSED, 0.5f, 100, 0},
+        {CRV_DEPTH_NORMALISED, 0.5f, 20, 0},
+        {CRV_DEPTH_NORMALISED_REVERSED, 0, 20, 0},
+        {CRV_DEPTH_GL, 0.5f, 100, 0},
+        {CRV_DEPTH_LOGARITHMIC, 0, 20, 0},
+        {CRV_DEPTH_HARDWARE, 0.5f, INFINITY, 0},
+        {CRV_DEPTH_REVERSED, 0.5f, INFINITY, 0},
     };
     fixture perspective = spheres(0), orthographic = spheres(1);
-    for (int k = 0; k < 6; k++) {
+    for (int k = 0; k < 10; k++) {
         compare_encoding(&perspective, &FORMATS[k]);
-        if (k < 4) /* an orthographic projection has a finite far plane */
+        if (k < 8) /* an orthographic projection has a finite far plane */
             compare_encoding(&orthographic, &FORMATS[k]);
     }
     fixture_free(&perspective);

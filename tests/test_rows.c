@@ -139,7 +139,7 @@ static rows_case case_make(int32_t index)
     if (between(0, 2) == 0)
         c.camera.projection = CRV_ORTHOGRAPHIC;
     c.format = crv_depth_format_planar();
-    c.format.encoding = (crv_depth_encoding)(index % (CRV_DEPTH_DISPARITY + 1));
+    c.format.encoding = (crv_depth_encoding)(index % (CRV_DEPTH_LOGARITHMIC + 1));
     if (between(0, 1))
         c.format.background = 4;
     c.format.z_near = 0.25f;
@@ -150,7 +150,8 @@ static rows_case case_make(int32_t index)
     c.input = canvas_make(width - c.desc.guard_left - c.desc.guard_right,
                           height - c.desc.guard_top, 1);
     const int hardware = c.format.encoding == CRV_DEPTH_HARDWARE
-                         || c.format.encoding == CRV_DEPTH_REVERSED;
+                         || c.format.encoding == CRV_DEPTH_REVERSED
+                         || c.format.encoding > CRV_DEPTH_DISPARITY;
     fill(&c.depth.image, hardware ? -0.01f : 0.5f, hardware ? 1.01f : 5, index % 2);
     fill(&c.normals.image, -1, 1, index % 3 == 0);
     fill(&c.input.image, 0, 1, index % 2);

@@ -30,15 +30,25 @@ typedef enum crv_depth_encoding {
     /* A depth buffer in [0, 1], 0 at near, 1 at far. An OpenGL depth texture holds the
      * same with the default glDepthRange. */
     CRV_DEPTH_HARDWARE = 2,
-    CRV_DEPTH_REVERSED = 3, /* a depth buffer in [0, 1], 1 at near, 0 at far */
-    CRV_DEPTH_DISPARITY = 4 /* 1 / planar depth; 0 is background */
+    CRV_DEPTH_REVERSED = 3,  /* a depth buffer in [0, 1], 1 at near, 0 at far */
+    CRV_DEPTH_DISPARITY = 4, /* 1 / planar depth; 0 is background */
+    /* The following are for files and memory, not for images of a Vulkan pass. */
+    CRV_DEPTH_NORMALISED = 5,          /* planar depth, in [0, 1] from near to far */
+    CRV_DEPTH_NORMALISED_REVERSED = 6, /* the same, 1 at near, 0 at far */
+    CRV_DEPTH_GL = 7, /* OpenGL's clip space: a depth buffer in [-1, 1], 1 at far */
+    /* log2(1 + planar depth) / log2(1 + far), as logarithmic depth buffers have it. */
+    CRV_DEPTH_LOGARITHMIC = 8
 } crv_depth_encoding;
 
 /* Fill it with crv_depth_format_planar() or by hand. */
 typedef struct crv_depth_format {
     crv_depth_encoding encoding;
-    float z_near; /* > 0 (orthographic: any), scene units; hardware and reversed only */
-    float z_far;  /* > z_near, INFINITY for an infinite projection (perspective only) */
+    /* Scene units. All but planar, radial and disparity have a far plane, at which there
+     * is nothing; all of them but logarithmic have a near plane. */
+    float
+        z_near;  /* > 0 for hardware, reversed and GL of a perspective camera, else any */
+    float z_far; /* > z_near and > 0; INFINITY for an infinite projection: hardware,
+                    reversed and GL of a perspective camera only */
     /* Planar and radial: this depth and all beyond is background. > 0, or INFINITY where
      * only non-finite depth is. Some renderers write 1e10. */
     float background;

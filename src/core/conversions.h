@@ -10,15 +10,20 @@
 #include "crevice/gbuffer.h"
 #include "shared/params.h"
 
+#include <stdbool.h>
+
 /*
- * What turns the numbers of a depth image into planar depth (depth.c). A hardware depth v
- * in [0, 1] is affine in 1/d (perspective) or in d (orthographic): d = 1 / (a + b v) or
- * d = a + b v.
+ * What turns the numbers of a depth image into planar depth (depth.c). A depth v between
+ * planes is affine in 1/d (buffers, perspective) or in d (is_linear): d = 1 / (a + b v)
+ * or d = a + b v for v in [low, 1] without the value at the far plane, `end`.
+ * Logarithmic: d = exp2(b v) - 1.
  */
 typedef struct crv__depth_map {
     const crv_camera *camera;
     crv_depth_format format;
     double a, b;
+    float low, end;
+    bool is_linear;
 } crv__depth_map;
 
 typedef struct crv__conversions {

@@ -17,13 +17,12 @@ typedef struct depth_job {
     crv__depth_map map;
 } depth_job;
 
-static double planar_of_hardware(const crv__depth_map *map, double v)
+static double planar_between_planes(const crv__depth_map *map, double v)
 {
-    const double far_value = map->format.encoding == CRV_DEPTH_REVERSED ? 0 : 1;
-    if (v == far_value || !(v >= 0 && v <= 1))
+    if (v == (double)map->end || !(v >= (double)map->low && v <= 1))
         return INFINITY;
     const double affine = map->a + map->b * v;
-    if (map->camera->projection == CRV_ORTHOGRAPHIC)
+    if (map->is_linear)
         return affine;
     return affine > 0 ? 1 / affine : INFINITY;
 }
@@ -45,9 +44,14 @@ static double planar_depth(const crv__depth_map *map, int32_t x, int32_t y, doub
     }
     case CRV_DEPTH_HARDWARE:
     case CRV_DEPTH_REVERSED:
-        return planar_of_hardware(map, v);
+    case CRV_DEPTH_NORMALISED:
+    case CRV_DEPTH_NORMALISED_REVERSED:
+    case CRV_DEPTH_GL:
+        return planar_between_planes(map, v);
     case CRV_DEPTH_DISPARITY:
         return 1 / v;
+    case CRV_DEPTH_LOGARITHMIC:
+        return v < 1 ? exp2(map->b * v) - 1 : INFINITY;
     }
     return INFINITY;
 }
@@ -76,26 +80,50 @@ static void convert_row(void *data, uint32_t row)
         out);
 }
 
-/* The affine map of a hardware depth. Standard: v = 0 at near, 1 at far; reversed: 1 - v.
- */
-static void hardware_coefficients(crv__depth_map *map)
+static bool is_reversed(crv_depth_encoding encoding)
 {
+    return encoding == CRV_DEPTH_REVERSED || encoding == CRV_DEPTH_NORMALISED_REVERSED;
+}
+
+static bool is_normalised(crv_depth_encoding encoding)
+{
+    return encoding == CRV_DEPTH_NORMALISED || encoding == CRV_DEPTH_NORMALISED_REVERSED;
+}
+
+static bool is_between_planes(crv_depth_encoding encoding)
+{
+    return encoding == CRV_DEPTH_HARDWARE || encoding == CRV_DEPTH_REVERSED
+           || encoding == CRV_DEPTH_GL || is_normalised(encoding);
+}
+
+/* The affine map of a depth between planes. Standard: v = 0 at near, 1 at far; reversed:
+ * 1 - v; GL: 2 v - 1. */
+static void set_coefficients(crv__depth_map *map)
+{
+    const crv_depth_encoding encoding = map->format.encoding;
     const double near_depth = (double)map->format.z_near,
                  far_depth = (double)map->format.z_far;
-    const int orthographic = map->camera->projection == CRV_ORTHOGRAPHIC;
-    const double at_near = orthographic ? near_depth : 1 / near_depth;
+    map->is_linear =
+        is_normalised(encoding) || map->camera->projection == CRV_ORTHOGRAPHIC;
+    const double at_near = map->is_linear ? near_depth : 1 / near_depth;
     const double at_far =
-        orthographic ? far_depth : 1 / far_depth; /* 0 where far is infinite */
-    const int reversed = map->format.encoding == CRV_DEPTH_REVERSED;
+        map->is_linear ? far_depth : 1 / far_depth; /* 0 if far is infinite */
+    const bool reversed = is_reversed(encoding);
     map->a = reversed ? at_far : at_near;
     map->b = reversed ? at_near - at_far : at_far - at_near;
+    map->end = reversed ? 0 : 1;
+    if (encoding == CRV_DEPTH_GL) {
+        map->low = -1;
+        map->a += 0.5 * map->b;
+        map->b *= 0.5;
+    }
 }
 
 static crv_status check_format(const crv_logger *logger, const crv_camera *camera,
                                const crv_depth_format *format)
 {
     const crv_depth_encoding encoding = format->encoding;
-    if (encoding < CRV_DEPTH_PLANAR || encoding > CRV_DEPTH_DISPARITY)
+    if (encoding < CRV_DEPTH_PLANAR || encoding > CRV_DEPTH_LOGARITHMIC)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT, "depth: unknown encoding %d",
                          (int)encoding);
     if ((encoding == CRV_DEPTH_PLANAR || encoding == CRV_DEPTH_RADIAL)
@@ -103,19 +131,25 @@ static crv_status check_format(const crv_logger *logger, const crv_camera *camer
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "depth: background %g is not positive; use INFINITY for none",
                          (double)format->background);
-    if (encoding != CRV_DEPTH_HARDWARE && encoding != CRV_DEPTH_REVERSED)
+    if (encoding == CRV_DEPTH_LOGARITHMIC) {
+        if (format->z_far > 0 && isfinite(format->z_far))
+            return CRV_OK;
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "depth: far %g; logarithmic depth needs a positive, finite one",
+                         (double)format->z_far);
+    }
+    if (!is_between_planes(encoding))
         return CRV_OK;
-    const int orthographic = camera->projection == CRV_ORTHOGRAPHIC;
-    const int near_valid =
-        isfinite(format->z_near) && (orthographic || format->z_near > 0);
-    const int far_valid =
-        format->z_far > format->z_near && (isfinite(format->z_far) || !orthographic);
+    const bool linear = is_normalised(encoding) || camera->projection == CRV_ORTHOGRAPHIC;
+    const bool near_valid = isfinite(format->z_near) && (linear || format->z_near > 0);
+    const bool far_valid =
+        format->z_far > format->z_near && (isfinite(format->z_far) || !linear);
     if (near_valid && far_valid)
         return CRV_OK;
     return crv__fail(
         logger, CRV_ERROR_INVALID_ARGUMENT,
         "depth: near %g and far %g; hardware depth needs 0 < near < far, far finite "
-        "for an orthographic camera",
+        "for an orthographic camera and for normalised depth",
         (double)format->z_near, (double)format->z_far);
 }
 
@@ -127,9 +161,10 @@ crv_status crv__depth_map_init(crv__depth_map *map, const crv_logger *logger,
     const crv_status status = check_format(logger, camera, &map->format);
     if (status)
         return status;
-    if (map->format.encoding == CRV_DEPTH_HARDWARE
-        || map->format.encoding == CRV_DEPTH_REVERSED)
-        hardware_coefficients(map);
+    if (is_between_planes(map->format.encoding))
+        set_coefficients(map);
+    else if (map->format.encoding == CRV_DEPTH_LOGARITHMIC)
+        map->b = log2(1 + (double)map->format.z_far);
     return CRV_OK;
 }
 

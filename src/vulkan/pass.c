@@ -297,6 +297,11 @@ crv_status crv_vulkan_pass_record(crv_vulkan_pass *p, VkCommandBuffer commands,
     if (status == CRV_OK)
         status = crv__depth_map_init(&map, &p->context->logger, &frame->camera,
                                      &frame->depth_encoding);
+    if (status == CRV_OK && map.format.encoding > CRV_DEPTH_DISPARITY)
+        status = crv__fail(&p->context->logger, CRV_ERROR_UNSUPPORTED,
+                           "pass: depth encoding %d is not for images of a pass; use "
+                           "planar, radial, hardware, reversed or disparity",
+                           (int)map.format.encoding);
     if (status)
         return status;
     crv__slot *slot = &p->slots[frame->index];

@@ -36,28 +36,35 @@ static void radial(const crv__depth_map *map, const float *v, int32_t x, int32_t
     }
 }
 
-CRV__INLINE void hardware(const crv__depth_map *map, const float *v, int32_t count,
-                          float *out, int orthographic)
+CRV__INLINE void between_planes(const crv__depth_map *map, const float *v, int32_t count,
+                                float *out, bool linear)
 {
-    const float end = map->format.encoding == CRV_DEPTH_REVERSED ? 0 : 1;
+    const float low = map->low, end = map->end;
     const double a = map->a, b = map->b;
     for (int32_t i = 0; i < count; i++) {
         const double affine = a + b * (double)v[i];
-        const float d = checked(orthographic ? affine : 1 / affine);
-        out[i] = ((v[i] != end) & (v[i] >= 0) & (v[i] <= 1)) ? d : INFINITY;
+        const float d = checked(linear ? affine : 1 / affine);
+        out[i] = ((v[i] != end) & (v[i] >= low) & (v[i] <= 1)) ? d : INFINITY;
     }
 }
 
-static void hardware_perspective(const crv__depth_map *map, const float *v, int32_t count,
-                                 float *out)
+static void between_planes_inverse(const crv__depth_map *map, const float *v,
+                                   int32_t count, float *out)
 {
-    hardware(map, v, count, out, 0);
+    between_planes(map, v, count, out, false);
 }
 
-static void hardware_orthographic(const crv__depth_map *map, const float *v,
+static void between_planes_linear(const crv__depth_map *map, const float *v,
                                   int32_t count, float *out)
 {
-    hardware(map, v, count, out, 1);
+    between_planes(map, v, count, out, true);
+}
+
+static void logarithmic(const crv__depth_map *map, const float *v, int32_t count,
+                        float *out)
+{
+    for (int32_t i = 0; i < count; i++)
+        out[i] = v[i] < 1 ? checked(exp2(map->b * (double)v[i]) - 1) : INFINITY;
 }
 
 static void disparity(const float *v, int32_t count, float *out)
@@ -82,7 +89,14 @@ static void convert(const crv__depth_map *map, const float *v, int32_t x, int32_
         break;
     case CRV_DEPTH_HARDWARE:
     case CRV_DEPTH_REVERSED:
-        (orthographic ? hardware_orthographic : hardware_perspective)(map, v, count, out);
+    case CRV_DEPTH_NORMALISED:
+    case CRV_DEPTH_NORMALISED_REVERSED:
+    case CRV_DEPTH_GL:
+        (map->is_linear ? between_planes_linear : between_planes_inverse)(map, v, count,
+                                                                          out);
+        break;
+    case CRV_DEPTH_LOGARITHMIC:
+        logarithmic(map, v, count, out);
         break;
     case CRV_DEPTH_DISPARITY:
         disparity(v, count, out);
