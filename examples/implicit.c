@@ -167,8 +167,8 @@ static crv_status fill_sheet(const shape *s, float *depth, float *normals, float
         CRV_CHARACTERISTIC_DEPTH, CRV_CHARACTERISTIC_FIELD, CRV_CHARACTERISTIC_PRODUCT};
     const float vfov_rad = 0.8f;
     const crv_camera camera = crv_camera_perspective(WIDTH, HEIGHT, vfov_rad);
-    crv_image depth_image = crv_image_packed(depth, WIDTH, HEIGHT, 1);
-    crv_image normal_image = crv_image_packed(normals, WIDTH, HEIGHT, 3);
+    crv_const_image depth_image = crv_const_image_packed(depth, WIDTH, HEIGHT, 1);
+    crv_const_image normal_image = crv_const_image_packed(normals, WIDTH, HEIGHT, 3);
     crv_context *context = NULL;
     crv_gbuffer *gbuffer = NULL;
     crv_context_desc context_desc;

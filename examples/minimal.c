@@ -51,7 +51,7 @@ static crv_status occlude(float *depth, float *accessibility, const crv_camera *
     crv_context_desc context_desc;
     crv_gbuffer_desc desc;
     crv_options options;
-    crv_image depth_image = crv_image_packed(depth, WIDTH, HEIGHT, 1);
+    crv_const_image depth_image = crv_const_image_packed(depth, WIDTH, HEIGHT, 1);
     crv_image result = crv_image_packed(accessibility, WIDTH, HEIGHT, 1);
 
     crv_context_desc_init(&context_desc, sizeof context_desc);

@@ -73,9 +73,11 @@ static crv_status occlude(const crv_camera *camera, float *depth, float *sample_
     crv_context_desc context_desc;
     crv_gbuffer_desc desc;
     crv_options options;
-    crv_image depth_image = crv_image_packed(depth, WIDTH, HEIGHT, 1);
-    crv_image sample_image = crv_image_packed(sample_depth, WIDTH, HEIGHT, SAMPLES);
+    crv_const_image depth_image = crv_const_image_packed(depth, WIDTH, HEIGHT, 1);
+    crv_const_image sample_image =
+        crv_const_image_packed(sample_depth, WIDTH, HEIGHT, SAMPLES);
     crv_image pixel_result = crv_image_packed(accessibility, WIDTH, HEIGHT, 1);
+    crv_const_image pixel_input = crv_image_const(pixel_result);
     crv_image sample_result = crv_image_packed(gathered, WIDTH, HEIGHT, SAMPLES);
 
     crv_context_desc_init(&context_desc, sizeof context_desc);
@@ -97,7 +99,7 @@ static crv_status occlude(const crv_camera *camera, float *depth, float *sample_
         status = crv_plan_run(plan, gbuffer, &pixel_result);
     if (status == CRV_OK)
         status =
-            crv_multisample_gather(gbuffer, &pixel_result, &sample_image, NULL,
+            crv_multisample_gather(gbuffer, &pixel_input, &sample_image, NULL,
                                    options.filter_depth * options.radius, &sample_result);
     crv_plan_destroy(plan);
     crv_gbuffer_destroy(gbuffer);

@@ -191,11 +191,12 @@ void scene_gbuffer_free(scene_gbuffer *g)
 
 static crv_status fill(const scene_gbuffer *g, crv_gbuffer *gbuffer)
 {
-    crv_image normals = crv_image_packed(g->normals, g->desc.width, g->desc.height, 3);
+    crv_const_image normals =
+        crv_const_image_packed(g->normals, g->desc.width, g->desc.height, 3);
     crv_status status = crv_gbuffer_set_camera(gbuffer, &g->camera);
     for (int32_t layer = 0; layer < g->desc.layers && status == CRV_OK; layer++) {
-        crv_image depth =
-            crv_image_packed(g->depth[layer], g->desc.width, g->desc.height, 1);
+        crv_const_image depth =
+            crv_const_image_packed(g->depth[layer], g->desc.width, g->desc.height, 1);
         status = crv_gbuffer_set_depth(gbuffer, layer, &depth, NULL);
     }
     if (status == CRV_OK)

@@ -371,13 +371,13 @@ static crv_gbuffer *make_gbuffer(const simd_case *c, crv_context *context)
     int bad = crv_gbuffer_create(context, &c->desc, &g)
               || crv_gbuffer_set_camera(g, &c->camera);
     for (int32_t i = 0; !bad && i < c->desc.layers; i++) {
-        const crv_image depth =
-            crv_image_packed(c->depth[i], c->desc.width, c->desc.height, 1);
+        const crv_const_image depth =
+            crv_const_image_packed(c->depth[i], c->desc.width, c->desc.height, 1);
         bad = crv_gbuffer_set_depth(g, i, &depth, NULL) != CRV_OK;
     }
     if (!bad && c->normals) {
-        const crv_image normals =
-            crv_image_packed(c->normals, c->desc.width, c->desc.height, 3);
+        const crv_const_image normals =
+            crv_const_image_packed(c->normals, c->desc.width, c->desc.height, 3);
         bad = crv_gbuffer_set_normals(g, &normals, CRV_NORMAL_VIEW) != CRV_OK;
     }
     if (!bad && crv__gbuffer_prepare(g) == CRV_OK)

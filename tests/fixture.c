@@ -133,12 +133,12 @@ crv_logger fixture_strict_logger(void)
 
 static void upload(const fixture *f, const fixture_run *run, crv_gbuffer *gbuffer)
 {
-    crv_image depth = crv_image_packed(f->depth, f->width, f->height, 1);
-    crv_image normals = crv_image_packed(f->normals, f->width, f->height, 3);
+    crv_const_image depth = crv_const_image_packed(f->depth, f->width, f->height, 1);
+    crv_const_image normals = crv_const_image_packed(f->normals, f->width, f->height, 3);
     assert_int_equal(crv_gbuffer_set_camera(gbuffer, &f->camera), CRV_OK);
     assert_int_equal(crv_gbuffer_set_depth(gbuffer, 0, &depth, run->format), CRV_OK);
     if (run->second_layer) {
-        depth.data = (float *)(uintptr_t)run->second_layer; /* only read */
+        depth.data = run->second_layer; /* only read */
         assert_int_equal(crv_gbuffer_set_depth(gbuffer, 1, &depth, NULL), CRV_OK);
     }
     if (!run->without_normals)

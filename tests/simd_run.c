@@ -190,13 +190,13 @@ static crv_status session_begin(session *s, const simd_case *c, crv_isa isa, kee
     if (status == CRV_OK)
         status = crv_gbuffer_set_camera(s->gbuffer, &c->camera);
     for (int32_t i = 0; status == CRV_OK && i < c->desc.layers; i++) {
-        const crv_image depth =
-            crv_image_packed(c->depth[i], c->desc.width, c->desc.height, 1);
+        const crv_const_image depth =
+            crv_const_image_packed(c->depth[i], c->desc.width, c->desc.height, 1);
         status = crv_gbuffer_set_depth(s->gbuffer, i, &depth, NULL);
     }
     if (status == CRV_OK && c->normals) {
-        const crv_image normals =
-            crv_image_packed(c->normals, c->desc.width, c->desc.height, 3);
+        const crv_const_image normals =
+            crv_const_image_packed(c->normals, c->desc.width, c->desc.height, 3);
         status = crv_gbuffer_set_normals(s->gbuffer, &normals, CRV_NORMAL_VIEW);
     }
     if (status == CRV_OK && crv_context_isa(s->context) != isa) {
@@ -212,7 +212,8 @@ static crv_status session_run(const session *s, const simd_case *c,
 {
     if (!c->input)
         return crv_plan_run(s->plan, s->gbuffer, result);
-    crv_image input = crv_image_packed(c->input, result->width, result->height, 1);
+    crv_const_image input =
+        crv_const_image_packed(c->input, result->width, result->height, 1);
     return crv_plan_filter(s->plan, s->gbuffer, &input, result);
 }
 

@@ -107,13 +107,14 @@ static void a_run_allocates_nothing(void **state)
     assert_int_equal(make(&o, &c, &desc), CRV_OK);
     const int64_t calls = c.calls;
     crv_camera camera = crv_camera_perspective(WIDTH, HEIGHT, 1);
-    crv_image image = crv_image_packed(depth, WIDTH, HEIGHT, 1);
+    crv_const_image image = crv_const_image_packed(depth, WIDTH, HEIGHT, 1);
     crv_image result = crv_image_packed(out, WIDTH, HEIGHT, 1);
+    const crv_const_image estimate = crv_image_const(result);
     for (int frame = 0; frame < 3; frame++) {
         assert_int_equal(crv_gbuffer_set_camera(o.gbuffer, &camera), CRV_OK);
         assert_int_equal(crv_gbuffer_set_depth(o.gbuffer, 0, &image, NULL), CRV_OK);
         assert_int_equal(crv_plan_run(o.plan, o.gbuffer, &result), CRV_OK);
-        assert_int_equal(crv_plan_filter(o.plan, o.gbuffer, &result, &result), CRV_OK);
+        assert_int_equal(crv_plan_filter(o.plan, o.gbuffer, &estimate, &result), CRV_OK);
     }
     assert_int_equal(c.calls, calls);
     destroy(&o);
@@ -142,21 +143,22 @@ static void calls_out_of_order_are_told(void **state)
     for (int i = 0; i < WIDTH * HEIGHT; i++)
         pixels[i] = 1;
     crv_image image = crv_image_packed(pixels, WIDTH, HEIGHT, 1);
-    crv_image vectors = crv_image_packed(normals, WIDTH, HEIGHT, 3);
+    const crv_const_image depth = crv_image_const(image);
+    const crv_const_image vectors = crv_const_image_packed(normals, WIDTH, HEIGHT, 3);
     crv_camera camera = crv_camera_orthographic(WIDTH, HEIGHT, 1);
     counter c = {0};
     objects o;
     assert_int_equal(make(&o, &c, &desc), CRV_OK);
     assert_int_equal(crv_plan_run(o.plan, o.gbuffer, &image), CRV_ERROR_NOT_READY);
-    assert_int_equal(crv_gbuffer_set_depth(o.gbuffer, 0, &image, NULL),
+    assert_int_equal(crv_gbuffer_set_depth(o.gbuffer, 0, &depth, NULL),
                      CRV_ERROR_NOT_READY);
     assert_int_equal(crv_gbuffer_set_normals(o.gbuffer, &vectors, CRV_NORMAL_VIEW),
                      CRV_ERROR_NOT_READY);
     assert_int_equal(crv_gbuffer_set_camera(o.gbuffer, &camera), CRV_OK);
-    assert_int_equal(crv_gbuffer_set_depth(o.gbuffer, 0, &image, NULL), CRV_OK);
+    assert_int_equal(crv_gbuffer_set_depth(o.gbuffer, 0, &depth, NULL), CRV_OK);
     assert_int_equal(crv_plan_run(o.plan, o.gbuffer, &image), CRV_ERROR_NOT_READY);
     assert_int_equal(crv_gbuffer_get_depth(o.gbuffer, 1, &image), CRV_ERROR_NOT_READY);
-    assert_int_equal(crv_gbuffer_set_depth(o.gbuffer, 1, &image, NULL), CRV_OK);
+    assert_int_equal(crv_gbuffer_set_depth(o.gbuffer, 1, &depth, NULL), CRV_OK);
     assert_int_equal(crv_plan_run(o.plan, o.gbuffer, &image), CRV_OK);
     /* A new camera begins a new frame. */
     assert_int_equal(crv_gbuffer_set_camera(o.gbuffer, &camera), CRV_OK);
@@ -198,6 +200,138 @@ static void bad_sizes_are_refused(void **state)
     crv_context_destroy(context);
 }
 
+static void keep_line(void *user, crv_log_level level, const char *line)
+{
+    (void)level;
+    snprintf(user, 256, "%s", line);
+}
+
+/* Room for a struct of the headers, and more than it. */
+typedef union room {
+    unsigned char bytes[512];
+    size_t struct_size;
+    crv_context_desc context;
+    crv_gbuffer_desc gbuffer;
+    crv_options options;
+} room;
+
+static crv_status init_context(room *r, size_t size)
+{
+    return crv_context_desc_init(&r->context, size);
+}
+
+static crv_status init_gbuffer(room *r, size_t size)
+{
+    return crv_gbuffer_desc_init(&r->gbuffer, size, WIDTH, HEIGHT);
+}
+
+static crv_status init_options(room *r, size_t size)
+{
+    return crv_options_init(&r->options, size, "vao");
+}
+
+static crv_status use_context(crv_context *context, const room *r)
+{
+    (void)context;
+    crv_context *made = NULL;
+    const crv_status status = crv_context_create(&r->context, &made);
+    crv_context_destroy(made);
+    return status;
+}
+
+static crv_status use_gbuffer(crv_context *context, const room *r)
+{
+    crv_gbuffer *made = NULL;
+    const crv_status status = crv_gbuffer_create(context, &r->gbuffer, &made);
+    crv_gbuffer_destroy(made);
+    return status;
+}
+
+static crv_status use_options(crv_context *context, const room *r)
+{
+    crv_gbuffer_desc desc = small_desc();
+    crv_plan *made = NULL;
+    const crv_status status = crv_plan_create(context, &r->options, &desc, &made);
+    crv_plan_destroy(made);
+    return status;
+}
+
+/* base.h: every earlier size is taken and nothing is written beyond it; a larger one, and
+ * what was never initialised, is refused with a line. Structs end at multiples of their
+ * alignment. */
+static void structs_of_every_earlier_size_are_taken(void **state)
+{
+    (void)state;
+    static const struct {
+        size_t first, size;
+        crv_status (*init)(room *r, size_t size);
+        crv_status (*use)(crv_context *context, const room *r);
+    } CASES[] = {
+        {offsetof(crv_context_desc, allocator), sizeof(crv_context_desc), init_context,
+         use_context},
+        {offsetof(crv_gbuffer_desc, guard_left), sizeof(crv_gbuffer_desc), init_gbuffer,
+         use_gbuffer},
+        {offsetof(crv_options, tau), sizeof(crv_options), init_options, use_options},
+    };
+    char line[256] = "";
+    crv_context_desc hooks;
+    crv_context *context = NULL;
+    assert_int_equal(crv_context_desc_init(&hooks, sizeof hooks), CRV_OK);
+    hooks.logger = (crv_logger){.fn = keep_line, .user = line};
+    assert_int_equal(crv_context_create(&hooks, &context), CRV_OK);
+    for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
+        for (size_t size = CASES[i].first; size <= CASES[i].size; size += 8) {
+            room r;
+            memset(&r, 0xa5, sizeof r);
+            assert_int_equal(CASES[i].init(&r, size), CRV_OK);
+            assert_int_equal(r.struct_size, size);
+            for (size_t k = size; k < sizeof r; k++)
+                assert_int_equal(r.bytes[k], 0xa5);
+            assert_int_equal(CASES[i].use(context, &r), CRV_OK);
+        }
+        const size_t bad[] = {CASES[i].first - 8, CASES[i].size + 8};
+        for (int k = 0; k < 2; k++) {
+            room r;
+            memset(&r, 0xa5, sizeof r);
+            assert_int_equal(CASES[i].init(&r, bad[k]), CRV_ERROR_INVALID_ARGUMENT);
+            for (size_t at = sizeof r.struct_size; at < bad[k]; at++)
+                assert_int_equal(r.bytes[at], 0);
+            line[0] = 0;
+            assert_int_equal(CASES[i].use(context, &r), CRV_ERROR_INVALID_ARGUMENT);
+            if (CASES[i].use != use_context) /* its logger is in the struct itself */
+                assert_non_null(
+                    strstr(line, k ? "as new as the headers" : "not initialised"));
+        }
+    }
+    crv_context_destroy(context);
+}
+
+/* Options that the program does not know have their defaults, and cannot be set. */
+static void missing_members_take_their_defaults(void **state)
+{
+    (void)state;
+    crv_options full, early;
+    assert_int_equal(crv_options_init(&full, sizeof full, "hbao"), CRV_OK);
+    memset(&early, 0x7f, sizeof early);
+    const size_t size = offsetof(crv_options, intensity) / 8 * 8;
+    assert_int_equal(crv_options_init(&early, size, "hbao"), CRV_OK);
+    for (int32_t i = 0; i < crv_option_count(); i++) {
+        const crv_option *option = crv_option_at(i);
+        assert_true(crv_options_get(&early, option) == crv_options_get(&full, option));
+    }
+    assert_int_equal(crv_options_set(&early, "steps", "5", NULL), CRV_OK);
+    assert_int_equal(crv_options_set(&early, "contrast", "2", NULL),
+                     CRV_ERROR_UNSUPPORTED);
+    assert_int_equal(crv_options_preset(&early, CRV_PRESET_ULTRA), CRV_OK);
+    assert_int_equal(crv_options_check(&early, NULL), CRV_OK);
+}
+
+static crv_status set_depth(const objects *o, int32_t layer, crv_image image)
+{
+    const crv_const_image depth = crv_image_const(image);
+    return crv_gbuffer_set_depth(o->gbuffer, layer, &depth, NULL);
+}
+
 static void bad_images_are_refused(void **state)
 {
     (void)state;
@@ -220,25 +354,24 @@ static void bad_images_are_refused(void **state)
     crv_camera camera = crv_camera_perspective(WIDTH, HEIGHT, 1);
     assert_int_equal(crv_gbuffer_set_camera(o.gbuffer, &camera), CRV_OK);
     for (int i = 0; i < 7; i++)
-        assert_int_equal(crv_gbuffer_set_depth(o.gbuffer, 0, &bad[i], NULL),
-                         CRV_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(crv_gbuffer_set_depth(o.gbuffer, 0, &good, NULL), CRV_OK);
+        assert_int_equal(set_depth(&o, 0, bad[i]), CRV_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(set_depth(&o, 0, good), CRV_OK);
     for (int i = 0; i < 7; i++)
         assert_int_equal(crv_plan_run(o.plan, o.gbuffer, &bad[i]),
                          CRV_ERROR_INVALID_ARGUMENT);
     /* An input may repeat a row or a pixel; an output may not. */
     crv_image repeated = good;
     repeated.row_stride = 0;
-    assert_int_equal(crv_gbuffer_set_depth(o.gbuffer, 0, &repeated, NULL), CRV_OK);
+    assert_int_equal(set_depth(&o, 0, repeated), CRV_OK);
     assert_int_equal(crv_plan_run(o.plan, o.gbuffer, &repeated),
                      CRV_ERROR_INVALID_ARGUMENT);
     repeated.row_stride = (WIDTH - 1) * (ptrdiff_t)sizeof(float);
     assert_int_equal(crv_plan_run(o.plan, o.gbuffer, &repeated),
                      CRV_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(crv_gbuffer_set_normals(o.gbuffer, &good, CRV_NORMAL_VIEW),
+    const crv_const_image one_channel = crv_image_const(good);
+    assert_int_equal(crv_gbuffer_set_normals(o.gbuffer, &one_channel, CRV_NORMAL_VIEW),
                      CRV_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(crv_gbuffer_set_depth(o.gbuffer, 1, &good, NULL),
-                     CRV_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(set_depth(&o, 1, good), CRV_ERROR_INVALID_ARGUMENT);
     destroy(&o);
 }
 
@@ -252,7 +385,7 @@ static void bad_formats_and_cameras_are_refused(void **state)
         {CRV_DEPTH_REVERSED, 1, -INFINITY, 0},
     };
     static float pixels[WIDTH * HEIGHT];
-    crv_image image = crv_image_packed(pixels, WIDTH, HEIGHT, 1);
+    const crv_const_image image = crv_const_image_packed(pixels, WIDTH, HEIGHT, 1);
     crv_gbuffer_desc desc = small_desc();
     counter c = {0};
     objects o;
@@ -363,6 +496,8 @@ int main(void)
         cmocka_unit_test(calls_out_of_order_are_told),
         cmocka_unit_test(bad_sizes_are_refused),
         cmocka_unit_test(bad_images_are_refused),
+        cmocka_unit_test(structs_of_every_earlier_size_are_taken),
+        cmocka_unit_test(missing_members_take_their_defaults),
         cmocka_unit_test(bad_formats_and_cameras_are_refused),
         cmocka_unit_test(nulls_are_refused),
         cmocka_unit_test(mismatched_objects_are_refused),

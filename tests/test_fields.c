@@ -44,8 +44,10 @@ typedef struct scene {
 
 static void begin_frame(scene *s)
 {
-    crv_image depth = crv_image_packed(s->f.depth, s->f.width, s->f.height, 1);
-    crv_image normals = crv_image_packed(s->f.normals, s->f.width, s->f.height, 3);
+    crv_const_image depth =
+        crv_const_image_packed(s->f.depth, s->f.width, s->f.height, 1);
+    crv_const_image normals =
+        crv_const_image_packed(s->f.normals, s->f.width, s->f.height, 3);
     assert_int_equal(crv_gbuffer_set_camera(s->gbuffer, &s->f.camera), CRV_OK);
     assert_int_equal(crv_gbuffer_set_depth(s->gbuffer, 0, &depth, NULL), CRV_OK);
     assert_int_equal(crv_gbuffer_set_normals(s->gbuffer, &normals, CRV_NORMAL_VIEW),
@@ -405,10 +407,10 @@ static relief make_relief(const fixture *f, float extent, int flat, float *map,
             memcpy(r.bitangent + 3 * i, across, sizeof across);
         }
     }
-    r.field.uv = crv_image_packed(r.uv, f->width, f->height, 2);
-    r.field.tangent = crv_image_packed(r.tangent, f->width, f->height, 3);
-    r.field.bitangent = crv_image_packed(r.bitangent, f->width, f->height, 3);
-    r.field.height = crv_image_packed(map, map_width, map_height, 1);
+    r.field.uv = crv_const_image_packed(r.uv, f->width, f->height, 2);
+    r.field.tangent = crv_const_image_packed(r.tangent, f->width, f->height, 3);
+    r.field.bitangent = crv_const_image_packed(r.bitangent, f->width, f->height, 3);
+    r.field.height = crv_const_image_packed(map, map_width, map_height, 1);
     return r;
 }
 
@@ -561,7 +563,7 @@ static void holes_in_the_map_are_flat(void **state)
     const crv_options options = plain_options("containment", 32);
     assert_int_equal(crv_gbuffer_set_height_field(s.gbuffer, &r.field), CRV_OK);
     float *with_holes = run(&s, &options);
-    r.field.height = crv_image_packed(filled, 4, 4, 1);
+    r.field.height = crv_const_image_packed(filled, 4, 4, 1);
     assert_int_equal(crv_gbuffer_set_height_field(s.gbuffer, &r.field), CRV_OK);
     float *without = run(&s, &options);
     assert_memory_equal(with_holes, without, SIZE * SIZE * sizeof(float));
@@ -746,7 +748,7 @@ static void every_failed_allocation_is_survived(void **state)
     int64_t calls = s.memory.calls;
     assert_int_equal(crv_gbuffer_set_height_field(s.gbuffer, &r.field), CRV_OK);
     assert_int_equal(s.memory.calls, calls);
-    r.field.height = crv_image_packed(map, 2, 2, 1);
+    r.field.height = crv_const_image_packed(map, 2, 2, 1);
     calls = s.memory.calls;
     assert_int_equal(crv_gbuffer_set_height_field(s.gbuffer, &r.field), CRV_OK);
     assert_int_equal(s.memory.calls, calls + 1);

@@ -21,8 +21,8 @@ static void apply_with(const char *filter, int32_t slope, float normal_deg,
     options.filter_slope = slope;
     options.filter_normal = normal_deg;
     crv_camera camera = crv_camera_perspective(SIZE, SIZE, 1);
-    crv_image depths = crv_image_packed((float *)(uintptr_t)depth, SIZE, SIZE, 1);
-    crv_image input = crv_image_packed((float *)(uintptr_t)in, SIZE, SIZE, 1);
+    crv_const_image depths = crv_const_image_packed(depth, SIZE, SIZE, 1);
+    crv_const_image input = crv_const_image_packed(in, SIZE, SIZE, 1);
     crv_image result = crv_image_packed(out, SIZE, SIZE, 1);
     crv_context *context = fixture_context_open();
     crv_gbuffer *gbuffer = NULL;
@@ -32,7 +32,7 @@ static void apply_with(const char *filter, int32_t slope, float normal_deg,
     assert_int_equal(crv_gbuffer_set_camera(gbuffer, &camera), CRV_OK);
     assert_int_equal(crv_gbuffer_set_depth(gbuffer, 0, &depths, NULL), CRV_OK);
     if (normals) {
-        crv_image n = crv_image_packed((float *)(uintptr_t)normals, SIZE, SIZE, 3);
+        crv_const_image n = crv_const_image_packed(normals, SIZE, SIZE, 3);
         assert_int_equal(crv_gbuffer_set_normals(gbuffer, &n, CRV_NORMAL_VIEW), CRV_OK);
     }
     assert_int_equal(crv_plan_filter(plan, gbuffer, &input, &result), CRV_OK);

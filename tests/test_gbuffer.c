@@ -98,8 +98,8 @@ static double encode(const fixture *f, const crv_depth_format *format, int32_t i
 static void set_frame(bench *b, const fixture *f, const crv_depth_format *format,
                       const float *values)
 {
-    crv_image depth = crv_image_packed((float *)(uintptr_t)values, WIDTH, HEIGHT, 1);
-    crv_image normals = crv_image_packed(f->normals, WIDTH, HEIGHT, 3);
+    crv_const_image depth = crv_const_image_packed(values, WIDTH, HEIGHT, 1);
+    crv_const_image normals = crv_const_image_packed(f->normals, WIDTH, HEIGHT, 3);
     assert_int_equal(crv_gbuffer_set_camera(b->gbuffer, &f->camera), CRV_OK);
     assert_int_equal(crv_gbuffer_set_depth(b->gbuffer, 0, &depth, format), CRV_OK);
     assert_int_equal(crv_gbuffer_set_normals(b->gbuffer, &normals, CRV_NORMAL_VIEW),
@@ -198,10 +198,10 @@ static void strides_are_honoured(void **state)
     run_bench(&b);
 
     const ptrdiff_t unit = sizeof(float);
-    crv_image depth_image = {
+    crv_const_image depth_image = {
         depth + (HEIGHT - 1) * PITCH, WIDTH, HEIGHT, 1, -PITCH * unit, GAP * unit, unit};
-    crv_image normal_image = {normals[0],   WIDTH, HEIGHT,      3,
-                              WIDTH * unit, unit,  COUNT * unit};
+    crv_const_image normal_image = {normals[0],   WIDTH, HEIGHT,      3,
+                                    WIDTH * unit, unit,  COUNT * unit};
     crv_image result = {
         out + (HEIGHT - 1) * PITCH, WIDTH, HEIGHT, 1, -PITCH * unit, GAP * unit, unit};
     assert_int_equal(crv_gbuffer_set_camera(b.gbuffer, &f.camera), CRV_OK);
@@ -313,7 +313,7 @@ static void world_space_normals_are_turned(void **state)
     bench b;
     open_bench(&b, 1, NULL);
     set_frame(&b, &f, NULL, f.depth);
-    crv_image image = crv_image_packed(world, WIDTH, HEIGHT, 3);
+    crv_const_image image = crv_const_image_packed(world, WIDTH, HEIGHT, 3);
     assert_int_equal(crv_gbuffer_set_normals(b.gbuffer, &image, CRV_NORMAL_WORLD),
                      CRV_OK);
     get_normals(&b, normals);
@@ -345,7 +345,7 @@ static void unusable_normals_are_mended(void **state)
                                               : n * 1e-30f;
         }
     }
-    crv_image image = crv_image_packed(damaged, WIDTH, HEIGHT, 3);
+    crv_const_image image = crv_const_image_packed(damaged, WIDTH, HEIGHT, 3);
     assert_int_equal(crv_gbuffer_set_normals(b.gbuffer, &image, CRV_NORMAL_VIEW), CRV_OK);
     get_normals(&b, normals);
     for (int32_t i = 0; i < COUNT; i++) {

@@ -53,15 +53,17 @@ static void make(frame *f, const crv_context_desc *hooks)
 static void set(frame *f)
 {
     crv_camera camera = crv_camera_perspective(FULL_WIDTH, FULL_HEIGHT, 1);
-    crv_image depth = crv_image_packed(&f->depth[0][0], FULL_WIDTH, FULL_HEIGHT, 1);
+    crv_const_image depth =
+        crv_const_image_packed(&f->depth[0][0], FULL_WIDTH, FULL_HEIGHT, 1);
     assert_int_equal(crv_gbuffer_set_camera(f->gbuffer, &camera), CRV_OK);
     assert_int_equal(crv_gbuffer_set_depth(f->gbuffer, 0, &depth, NULL), CRV_OK);
 }
 
 static crv_status gather(frame *f, const crv_depth_format *format, float range)
 {
-    crv_image accessibility = crv_image_packed(&f->accessibility[0][0], WIDTH, HEIGHT, 1);
-    crv_image samples = samples_of(&f->samples[0][0][0]);
+    const crv_const_image accessibility =
+        crv_const_image_packed(&f->accessibility[0][0], WIDTH, HEIGHT, 1);
+    const crv_const_image samples = crv_image_const(samples_of(&f->samples[0][0][0]));
     crv_image result = samples_of(&f->result[0][0][0]);
     return crv_multisample_gather(f->gbuffer, &accessibility, &samples, format, range,
                                   &result);
@@ -218,10 +220,14 @@ static void bad_arguments_are_refused(void **state)
     const crv_depth_format odd = {CRV_DEPTH_HARDWARE, 2, 1, INFINITY};
     assert_int_equal(gather(&f, &odd, 0.5f), CRV_ERROR_INVALID_ARGUMENT);
 
-    crv_image a = crv_image_packed(&f.accessibility[0][0], WIDTH, HEIGHT, 1);
-    crv_image d = samples_of(&f.samples[0][0][0]), out = samples_of(&f.result[0][0][0]);
+    const crv_const_image a =
+        crv_const_image_packed(&f.accessibility[0][0], WIDTH, HEIGHT, 1);
+    crv_image in_place = samples_of(&f.samples[0][0][0]);
+    const crv_const_image d = crv_image_const(in_place);
+    crv_image out = samples_of(&f.result[0][0][0]);
     const float before = f.result[0][0][0] = -7;
-    crv_image small = d, single = d, many = d, other = out, overlap = out;
+    crv_const_image small = d, single = d, many = d;
+    crv_image other = out, overlap = out;
     small.width--;
     single.channels = 1;
     many.channels = 17;
@@ -241,7 +247,7 @@ static void bad_arguments_are_refused(void **state)
     assert_int_equal(crv_multisample_gather(g, &a, &d, NULL, 1, &overlap), bad);
     assert_true(f.result[0][0][0] == before);
     /* The result may take the place of the depths. */
-    assert_int_equal(crv_multisample_gather(g, &a, &d, NULL, 1, &d), CRV_OK);
+    assert_int_equal(crv_multisample_gather(g, &a, &d, NULL, 1, &in_place), CRV_OK);
     assert_float_equal(f.samples[0][0][0], 0.2f, EXACT);
     destroy(&f);
 }

@@ -180,11 +180,10 @@ static void compute(const peeled *p, const crv_options *options, int32_t layers,
     assert_int_equal(crv_plan_create(context, options, &desc, &plan), CRV_OK);
     assert_int_equal(crv_gbuffer_set_camera(gbuffer, &p->f.camera), CRV_OK);
     for (int32_t k = 0; k < layers; k++) {
-        float *data = (float *)(uintptr_t)p->layers[k]; /* only read */
-        crv_image depth = crv_image_packed(data, SIZE, SIZE, 1);
+        crv_const_image depth = crv_const_image_packed(p->layers[k], SIZE, SIZE, 1);
         assert_int_equal(crv_gbuffer_set_depth(gbuffer, k, &depth, NULL), CRV_OK);
     }
-    crv_image normals = crv_image_packed(p->f.normals, SIZE, SIZE, 3);
+    crv_const_image normals = crv_const_image_packed(p->f.normals, SIZE, SIZE, 3);
     crv_image result = crv_image_packed(out, SIZE, SIZE, 1);
     assert_int_equal(crv_gbuffer_set_normals(gbuffer, &normals, CRV_NORMAL_VIEW), CRV_OK);
     assert_int_equal(crv_plan_run(plan, gbuffer, &result), CRV_OK);

@@ -207,18 +207,6 @@ static void presets_are_sound(void **state)
     assert_null(crv_preset_name((crv_preset)-1));
 }
 
-static void misspellings_find_the_nearest_name(void **state)
-{
-    (void)state;
-    static const char *const NAMES[] = {"radius", "directions", "steps", NULL};
-    assert_string_equal(crv_nearest_name("raduis", NAMES, -1), "radius");
-    assert_string_equal(crv_nearest_name("DIRECTION", NAMES, 3), "directions");
-    assert_string_equal(crv_nearest_name("step", NAMES, 3), "steps");
-    assert_null(crv_nearest_name("step", NAMES, 2));
-    assert_null(crv_nearest_name("banana", NAMES, -1));
-    assert_null(crv_nearest_name(NULL, NAMES, -1));
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -229,7 +217,6 @@ int main(void)
         cmocka_unit_test(unread_options_are_reported),
         cmocka_unit_test(options_are_checked),
         cmocka_unit_test(presets_are_sound),
-        cmocka_unit_test(misspellings_find_the_nearest_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

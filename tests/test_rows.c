@@ -180,15 +180,18 @@ static outcome run(const rows_case *c, crv_isa isa)
     assert_int_equal(crv_gbuffer_create(context, &c->desc, &g), CRV_OK);
     assert_int_equal(crv_plan_create(context, &options, &c->desc, &plan), CRV_OK);
     assert_int_equal(crv_gbuffer_set_camera(g, &c->camera), CRV_OK);
-    assert_int_equal(crv_gbuffer_set_depth(g, 0, &c->depth.image, &c->format), CRV_OK);
+    const crv_const_image depth_in = crv_image_const(c->depth.image);
+    const crv_const_image normals_in = crv_image_const(c->normals.image);
+    const crv_const_image input = crv_image_const(c->input.image);
+    assert_int_equal(crv_gbuffer_set_depth(g, 0, &depth_in, &c->format), CRV_OK);
     if (c->has_normals)
-        assert_int_equal(crv_gbuffer_set_normals(g, &c->normals.image, c->space), CRV_OK);
+        assert_int_equal(crv_gbuffer_set_normals(g, &normals_in, c->space), CRV_OK);
     canvas depth = canvas_make(c->desc.width, c->desc.height, 1);
     canvas normals = canvas_make(c->desc.width, c->desc.height, 3);
     canvas filtered = canvas_make(c->input.image.width, c->input.image.height, 1);
     assert_int_equal(crv_gbuffer_get_depth(g, 0, &depth.image), CRV_OK);
     assert_int_equal(crv_gbuffer_get_normals(g, &normals.image), CRV_OK);
-    assert_int_equal(crv_plan_filter(plan, g, &c->input.image, &filtered.image), CRV_OK);
+    assert_int_equal(crv_plan_filter(plan, g, &input, &filtered.image), CRV_OK);
     crv_plan_destroy(plan);
     crv_gbuffer_destroy(g);
     crv_context_destroy(context);

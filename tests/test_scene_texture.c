@@ -294,13 +294,13 @@ static void test_library_takes_it(void **state)
     float map[4] = {0.0f, 1.0f, 0.5f, 0.25f};
     crv_context *context = NULL;
     crv_gbuffer *gbuffer = NULL;
-    crv_height_field field = {.uv = crv_image_packed(g.uv, WIDTH, HEIGHT, 2),
-                              .tangent = crv_image_packed(g.tangent, WIDTH, HEIGHT, 3),
-                              .bitangent =
-                                  crv_image_packed(g.bitangent, WIDTH, HEIGHT, 3),
-                              .height = crv_image_packed(map, 2, 2, 1),
-                              .scale = 0.1f,
-                              .wrap = CRV_WRAP_REPEAT};
+    crv_height_field field = {
+        .uv = crv_const_image_packed(g.uv, WIDTH, HEIGHT, 2),
+        .tangent = crv_const_image_packed(g.tangent, WIDTH, HEIGHT, 3),
+        .bitangent = crv_const_image_packed(g.bitangent, WIDTH, HEIGHT, 3),
+        .height = crv_const_image_packed(map, 2, 2, 1),
+        .scale = 0.1f,
+        .wrap = CRV_WRAP_REPEAT};
     (void)state;
     assert_int_equal(crv_context_create(NULL, &context), CRV_OK);
     assert_int_equal(scene_gbuffer_upload(&g, context, &gbuffer), CRV_OK);

@@ -10,6 +10,7 @@
 
 #include "args.h"
 #include "frames.h"
+#include "nearest.h"
 
 typedef struct settings {
     common_settings common;
@@ -343,9 +344,22 @@ static void test_frame_names(void **state)
     assert_true(frames_name("shot.####.exr", 1, name, 14));
 }
 
+static void misspellings_find_the_nearest_name(void **state)
+{
+    (void)state;
+    static const char *const NAMES[] = {"radius", "directions", "steps", NULL};
+    assert_string_equal(nearest_name("raduis", NAMES, -1), "radius");
+    assert_string_equal(nearest_name("DIRECTION", NAMES, 3), "directions");
+    assert_string_equal(nearest_name("step", NAMES, 3), "steps");
+    assert_null(nearest_name("step", NAMES, 2));
+    assert_null(nearest_name("banana", NAMES, -1));
+    assert_null(nearest_name(NULL, NAMES, -1));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(misspellings_find_the_nearest_name),
         cmocka_unit_test(test_defaults),
         cmocka_unit_test(test_values),
         cmocka_unit_test(test_library_options),

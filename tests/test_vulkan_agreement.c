@@ -46,11 +46,13 @@ static crv_status set_frame(crv_gbuffer *gbuffer, const simd_case *c)
     const int32_t width = c->desc.width, height = c->desc.height;
     crv_status status = crv_gbuffer_set_camera(gbuffer, &c->camera);
     for (int32_t i = 0; status == CRV_OK && i < c->desc.layers; i++) {
-        const crv_image depth = crv_image_packed(c->depth[i], width, height, 1);
+        const crv_const_image depth =
+            crv_const_image_packed(c->depth[i], width, height, 1);
         status = crv_gbuffer_set_depth(gbuffer, i, &depth, NULL);
     }
     if (status == CRV_OK && c->normals) {
-        const crv_image normals = crv_image_packed(c->normals, width, height, 3);
+        const crv_const_image normals =
+            crv_const_image_packed(c->normals, width, height, 3);
         status = crv_gbuffer_set_normals(gbuffer, &normals, CRV_NORMAL_VIEW);
     }
     return status;
@@ -82,7 +84,7 @@ static float *computed(crv_context *context, const simd_case *c)
     if (status == CRV_OK)
         status = set_frame(gbuffer, c);
     if (status == CRV_OK && c->input) {
-        const crv_image input = crv_image_packed(c->input, width, height, 1);
+        const crv_const_image input = crv_const_image_packed(c->input, width, height, 1);
         status = crv_plan_filter(plan, gbuffer, &input, &result);
     } else if (status == CRV_OK) {
         status = crv_plan_run(plan, gbuffer, &result);

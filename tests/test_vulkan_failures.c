@@ -210,7 +210,7 @@ static crv_status run_plan(life *l, crv_context *context, const crv_options *opt
                            const crv_gbuffer_desc *size)
 {
     const crv_camera camera = crv_camera_perspective(WIDTH, HEIGHT, 1);
-    const crv_image depth = crv_image_packed(l->planes[0], WIDTH, HEIGHT, 1);
+    const crv_const_image depth = crv_const_image_packed(l->planes[0], WIDTH, HEIGHT, 1);
     const crv_image result = crv_image_packed(l->planes[1], WIDTH, HEIGHT, 1);
     crv_device_time times[CRV_MAX_DEVICE_TIMES];
     int32_t count = 0;

@@ -10,6 +10,7 @@ crevice_test(test_tool_metrics_heatmap
     SOURCES test_tool_metrics_heatmap.c ${common_dir}/heatmap.c)
 crevice_test(test_tool_args
     SOURCES test_tool_args.c ${common_dir}/args.c ${common_dir}/values.c ${common_dir}/report.c ${common_dir}/utf8.c
+            ${common_dir}/nearest.c
             ${tool_dir}/frames.c)
 crevice_test(test_tool_stability
     SOURCES test_tool_stability.c ${tool_dir}/study/stability.c)

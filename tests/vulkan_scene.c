@@ -175,10 +175,10 @@ float *scene_planned(crv_context *context, const scene *s, const scene_encoding 
 {
     const crv_options options = scene_options(e);
     const crv_depth_format format = scene_depth_format(e);
-    const crv_image depth =
-        crv_image_packed((float *)s->depth, SCENE_WIDTH, SCENE_HEIGHT, 1);
-    const crv_image normals =
-        crv_image_packed((float *)s->normals, SCENE_WIDTH, SCENE_HEIGHT, 3);
+    const crv_const_image depth =
+        crv_const_image_packed(s->depth, SCENE_WIDTH, SCENE_HEIGHT, 1);
+    const crv_const_image normals =
+        crv_const_image_packed(s->normals, SCENE_WIDTH, SCENE_HEIGHT, 3);
     float *pixels = malloc(SCENE_PIXELS * sizeof *pixels);
     const crv_image result =
         crv_image_packed(pixels, result_width(s), result_height(s), 1);

@@ -2,6 +2,14 @@
 /*
  * base.h: version, status codes, and the three hooks through which the host keeps
  * control: where messages go, where memory comes from, who runs the parallel loops.
+ *
+ * Structs that may grow begin with struct_size. Fill one with its _init function, which
+ * takes sizeof of it, and change what differs. New members are added at the end. A
+ * library takes every earlier size, with defaults for the members that are missing; so a
+ * program goes on working with a newer library. It refuses a larger size with
+ * INVALID_ARGUMENT: a program needs a library that is at least as new as its headers. If
+ * _init fails for the size, it zeroes the struct but for struct_size, and every call that
+ * takes the struct then says why.
  */
 #ifndef CREVICE_BASE_H
 #define CREVICE_BASE_H
@@ -35,7 +43,7 @@ extern "C" {
  * Thread-safe. */
 CRV_API const char *crv_version(void);
 
-/* What a call came to. Every function that can fail returns one of these; outputs are
+/* Result of a call. Every function that can fail returns one of these; outputs are
  * untouched unless it is CRV_OK. */
 typedef enum crv_status {
     CRV_OK = 0,
@@ -52,12 +60,6 @@ typedef enum crv_status {
 /* A short English name of a status ("out of memory"). Static storage; never NULL, also
  * for values that are not a crv_status. Thread-safe. */
 CRV_API const char *crv_status_string(crv_status status);
-
-/* The candidate that a misspelt word most likely means, by edit distance without regard
- * to case, or NULL where none is near. candidates: `count` strings, or up to a NULL where
- * count is -1. Thread-safe. */
-CRV_API const char *crv_nearest_name(const char *word, const char *const *candidates,
-                                     int32_t count);
 
 typedef enum crv_log_level {
     CRV_LOG_ERROR = 0,   /* a call failed; the line says why and what to do */

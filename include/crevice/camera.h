@@ -4,9 +4,15 @@
  *
  * View space is right-handed with the camera at the origin, looking down -Z, +X to the
  * right and +Y up. d is planar depth, d = -z > 0. The centre of pixel (i, j), row 0 on
- * top, is at (i + 0.5, j + 0.5). Then perspective    x = (i + 0.5 - cx) / fx * d    y =
- * -(j + 0.5 - cy) / fy * d    z = -d orthographic   x = (i + 0.5 - cx) / fx        y =
- * -(j + 0.5 - cy) / fy        z = -d
+ * top, is at (i + 0.5, j + 0.5). Then
+ *
+ *     perspective    x =  (i + 0.5 - cx) / fx * d
+ *                    y = -(j + 0.5 - cy) / fy * d
+ *                    z = -d
+ *
+ *     orthographic   x =  (i + 0.5 - cx) / fx
+ *                    y = -(j + 0.5 - cy) / fy
+ *                    z = -d
  */
 #ifndef CREVICE_CAMERA_H
 #define CREVICE_CAMERA_H

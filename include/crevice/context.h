@@ -72,8 +72,9 @@ typedef struct crv_context_desc {
     crv_depth_layout depth_layout; /* Vulkan, for plans, likewise; default PLAIN */
 } crv_context_desc;
 
-/* Sets the defaults. Pass sizeof *desc as struct_size. Thread-safe. */
-CRV_API void crv_context_desc_init(crv_context_desc *desc, size_t struct_size);
+/* Sets the defaults. Pass sizeof *desc as struct_size (base.h). Errors: INVALID_ARGUMENT.
+ * Thread-safe. */
+CRV_API crv_status crv_context_desc_init(crv_context_desc *desc, size_t struct_size);
 
 /*
  * Hooks and a device: there is no global state. A context and all that was made with it
@@ -148,7 +149,7 @@ CRV_API crv_status crv_plan_run(crv_plan *plan, crv_gbuffer *gbuffer,
  * Errors: as crv_plan_run().
  */
 CRV_API crv_status crv_plan_filter(crv_plan *plan, crv_gbuffer *gbuffer,
-                                   const crv_image *input, const crv_image *result);
+                                   const crv_const_image *input, const crv_image *result);
 
 /* The time that a step of a run took on the device. */
 typedef struct crv_device_time {
@@ -191,8 +192,8 @@ CRV_API crv_status crv_plan_device_times(const crv_plan *plan, crv_device_time *
  * Errors: INVALID_ARGUMENT; NOT_READY where the G-buffer lacks its camera or layer 0.
  */
 CRV_API crv_status crv_multisample_gather(crv_gbuffer *gbuffer,
-                                          const crv_image *accessibility,
-                                          const crv_image *sample_depth,
+                                          const crv_const_image *accessibility,
+                                          const crv_const_image *sample_depth,
                                           const crv_depth_format *format,
                                           float depth_range, const crv_image *result);
 

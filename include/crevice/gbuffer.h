@@ -88,9 +88,9 @@ typedef struct crv_gbuffer_desc {
 } crv_gbuffer_desc;
 
 /* Sets everything: one layer of width x height, no guard band. Pass sizeof *desc as
- * struct_size. Thread-safe. */
-CRV_API void crv_gbuffer_desc_init(crv_gbuffer_desc *desc, size_t struct_size,
-                                   int32_t width, int32_t height);
+ * struct_size (base.h). Errors: INVALID_ARGUMENT. Thread-safe. */
+CRV_API crv_status crv_gbuffer_desc_init(crv_gbuffer_desc *desc, size_t struct_size,
+                                         int32_t width, int32_t height);
 
 /* Whether all sizes and kinds are the same, so that plans and G-buffers made with one
  * serve for the other. Neither may be NULL. Thread-safe. */
@@ -122,7 +122,7 @@ CRV_API crv_status crv_gbuffer_set_camera(crv_gbuffer *gbuffer, const crv_camera
  * Errors: NOT_READY before crv_gbuffer_set_camera(), INVALID_ARGUMENT.
  */
 CRV_API crv_status crv_gbuffer_set_depth(crv_gbuffer *gbuffer, int32_t layer,
-                                         const crv_image *image,
+                                         const crv_const_image *image,
                                          const crv_depth_format *format);
 
 /*
@@ -132,7 +132,8 @@ CRV_API crv_status crv_gbuffer_set_depth(crv_gbuffer *gbuffer, int32_t layer,
  * one by one; normals that face away from the camera are turned or bent towards it.
  * Errors: NOT_READY, INVALID_ARGUMENT.
  */
-CRV_API crv_status crv_gbuffer_set_normals(crv_gbuffer *gbuffer, const crv_image *image,
+CRV_API crv_status crv_gbuffer_set_normals(crv_gbuffer *gbuffer,
+                                           const crv_const_image *image,
                                            crv_normal_space space);
 
 /*
@@ -161,10 +162,10 @@ typedef enum crv_wrap { CRV_WRAP_REPEAT = 0, CRV_WRAP_CLAMP = 1 } crv_wrap;
 typedef struct crv_height_field {
     /* 2 channels: texture coordinates, u to the right and v down over the map, 0 to 1;
      * NaN where a pixel has none. */
-    crv_image uv;
+    crv_const_image uv;
     /* 3 channels each, view space: change of the point with u and with v, scene units. */
-    crv_image tangent, bitangent;
-    crv_image height; /* 1 channel */
+    crv_const_image tangent, bitangent;
+    crv_const_image height; /* 1 channel */
     /* Scene units for a height of 1, along the surface's outer normal; finite. */
     float scale;
     crv_wrap wrap;

@@ -1,7 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * image.h: a view of float pixels that live in the host's memory. Crevice never owns
- * them.
+ * image.h: views of float pixels that live in the host's memory. Crevice never owns or
+ * keeps them: every call is done with the pixels when it returns.
+ *
+ * A view has free strides, so that interleaved, planar, padded and bottom-up memory are
+ * all described without a copy. Component c of pixel (x, y), row 0 on top, is the float
+ * at
+ *
+ *     (char *)data + y * row_stride + x * pixel_stride + c * channel_stride
+ *
+ * Strides are in bytes, multiples of 4, and may be negative (a bottom-up image points
+ * data at its last row). data is aligned to 4 bytes.
+ *
+ * Everything here is thread-safe.
  */
 #ifndef CREVICE_IMAGE_H
 #define CREVICE_IMAGE_H
@@ -15,15 +26,7 @@ extern "C" {
 /* The largest width and height that Crevice takes. */
 #define CRV_MAX_SIZE 32768
 
-/*
- * A rectangle of 32-bit floats with free strides, so that interleaved, planar, padded and
- * bottom-up memory are all described without a copy. Component c of pixel (x, y), row 0
- * on top, is the float at (char *)data + y * row_stride + x * pixel_stride + c *
- * channel_stride Strides are bytes, multiples of 4, and may be negative (a bottom-up
- * image points data at its last row). Different components must not overlap in an image
- * that Crevice writes. An image passed as an input is only read, although data is not
- * const.
- */
+/* An image that a call writes. Components must not overlap. */
 typedef struct crv_image {
     float *data;
     int32_t width;    /* px, 1 to CRV_MAX_SIZE */
@@ -35,19 +38,52 @@ typedef struct crv_image {
     ptrdiff_t channel_stride; /* bytes from a component to the next */
 } crv_image;
 
-/* The view of tightly packed memory: rows without padding, components interleaved (as in
- * float data[height][width][channels]). Checks nothing; the calls that take the image do.
- * Thread-safe. */
+/* An image that a call only reads. Members as in crv_image. Strides of 0 repeat a pixel
+ * or a row. */
+typedef struct crv_const_image {
+    const float *data;
+    int32_t width, height, channels;
+    ptrdiff_t row_stride, pixel_stride, channel_stride;
+} crv_const_image;
+
+/* A view of tightly packed memory: rows without padding, components interleaved, as in
+ * float data[height][width][channels]. Checks nothing; the calls that take the image
+ * do. */
 CRV_API crv_image crv_image_packed(float *data, int32_t width, int32_t height,
                                    int32_t channels);
+CRV_API crv_const_image crv_const_image_packed(const float *data, int32_t width,
+                                               int32_t height, int32_t channels);
 
-/* The address of one component. (x, y, c) must lie inside the image. Thread-safe. */
+/* The same pixels, only to be read. */
+static inline crv_const_image crv_image_const(crv_image image)
+{
+    crv_const_image view;
+    view.data = image.data;
+    view.width = image.width;
+    view.height = image.height;
+    view.channels = image.channels;
+    view.row_stride = image.row_stride;
+    view.pixel_stride = image.pixel_stride;
+    view.channel_stride = image.channel_stride;
+    return view;
+}
+
+/* The address of one component. (x, y, c) must lie inside the image. */
 static inline float *crv_image_at(const crv_image *image, int32_t x, int32_t y, int32_t c)
 {
     return (float *)(void *)((char *)(void *)image->data
                              + (ptrdiff_t)y * image->row_stride
                              + (ptrdiff_t)x * image->pixel_stride
                              + (ptrdiff_t)c * image->channel_stride);
+}
+
+static inline const float *crv_const_image_at(const crv_const_image *image, int32_t x,
+                                              int32_t y, int32_t c)
+{
+    return (const float *)(const void *)((const char *)(const void *)image->data
+                                         + (ptrdiff_t)y * image->row_stride
+                                         + (ptrdiff_t)x * image->pixel_stride
+                                         + (ptrdiff_t)c * image->channel_stride);
 }
 
 #ifdef __cplusplus

@@ -164,8 +164,8 @@ typedef struct crv_options {
 } crv_options;
 
 /* Sets every option to its default for the named method (NULL: hbao). Pass sizeof
- * *options as struct_size. CRV_ERROR_INVALID_ARGUMENT: options is NULL, the size is not a
- * known one, or no such method (options untouched). */
+ * *options as struct_size (base.h). Errors: INVALID_ARGUMENT if options is NULL, the size
+ * does not fit, or there is no such method (options untouched). */
 CRV_API crv_status crv_options_init(crv_options *options, size_t struct_size,
                                     const char *method);
 

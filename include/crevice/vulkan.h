@@ -75,8 +75,9 @@ typedef struct crv_vulkan_host {
     crv_vulkan_memory memory;
 } crv_vulkan_host;
 
-/* Sets everything to nothing. Pass sizeof *host as struct_size. Thread-safe. */
-CRV_API void crv_vulkan_host_init(crv_vulkan_host *host, size_t struct_size);
+/* Sets everything to nothing. Pass sizeof *host as struct_size (base.h). Errors:
+ * INVALID_ARGUMENT. Thread-safe. */
+CRV_API crv_status crv_vulkan_host_init(crv_vulkan_host *host, size_t struct_size);
 
 /*
  * A context on the host's device. desc NULL: the defaults; its `device` is not read.
@@ -160,8 +161,10 @@ typedef struct crv_vulkan_pass_desc {
     crv_vulkan_half half_filters; /* default AUTO */
 } crv_vulkan_pass_desc;
 
-/* Sets the defaults. Pass sizeof *desc as struct_size. Thread-safe. */
-CRV_API void crv_vulkan_pass_desc_init(crv_vulkan_pass_desc *desc, size_t struct_size);
+/* Sets the defaults. Pass sizeof *desc as struct_size (base.h). Errors: INVALID_ARGUMENT.
+ * Thread-safe. */
+CRV_API crv_status crv_vulkan_pass_desc_init(crv_vulkan_pass_desc *desc,
+                                             size_t struct_size);
 
 /* Pipelines, images and descriptors of one method, filter and size. */
 typedef struct crv_vulkan_pass crv_vulkan_pass;
@@ -221,8 +224,8 @@ typedef struct crv_vulkan_frame {
 } crv_vulkan_frame;
 
 /* Sets the defaults; camera, views and images are still to be given. Pass sizeof *frame
- * as struct_size. Thread-safe. */
-CRV_API void crv_vulkan_frame_init(crv_vulkan_frame *frame, size_t struct_size);
+ * as struct_size (base.h). Errors: INVALID_ARGUMENT. Thread-safe. */
+CRV_API crv_status crv_vulkan_frame_init(crv_vulkan_frame *frame, size_t struct_size);
 
 /*
  * Records all passes of a frame into a command buffer that is being recorded, outside of

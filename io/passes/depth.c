@@ -18,7 +18,8 @@ int io__convert_depth(const char *path, const crv_depth_format *format, io_frame
     if (status == CRV_OK)
         status = crv_gbuffer_set_camera(gbuffer, &frame->camera);
     for (int32_t i = 0; status == CRV_OK && i < frame->desc.layers; i++) {
-        status = crv_gbuffer_set_depth(gbuffer, i, &frame->depth[i], format);
+        const crv_const_image depth = crv_image_const(frame->depth[i]);
+        status = crv_gbuffer_set_depth(gbuffer, i, &depth, format);
         if (status == CRV_OK)
             status = crv_gbuffer_get_depth(gbuffer, i, &frame->depth[i]);
     }

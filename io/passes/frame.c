@@ -245,10 +245,13 @@ crv_status io_frame_to_gbuffer(const io_frame *frame, struct crv_context *contex
         status = crv_gbuffer_create(context, &frame->desc, &made);
     if (status == CRV_OK)
         status = crv_gbuffer_set_camera(made, &frame->camera);
-    for (int32_t i = 0; status == CRV_OK && i < frame->desc.layers; i++)
-        status = crv_gbuffer_set_depth(made, i, &frame->depth[i], NULL);
+    for (int32_t i = 0; status == CRV_OK && i < frame->desc.layers; i++) {
+        const crv_const_image depth = crv_image_const(frame->depth[i]);
+        status = crv_gbuffer_set_depth(made, i, &depth, NULL);
+    }
+    const crv_const_image normals = crv_image_const(frame->normals);
     if (status == CRV_OK && frame->has_normals)
-        status = crv_gbuffer_set_normals(made, &frame->normals, frame->normal_space);
+        status = crv_gbuffer_set_normals(made, &normals, frame->normal_space);
     if (status == CRV_OK)
         *gbuffer = made;
     else if (!*gbuffer)

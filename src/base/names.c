@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "crevice/base.h"
+#include "base/names.h"
 
 #include <ctype.h>
 #include <string.h>
@@ -37,15 +37,15 @@ static size_t edit_distance(const char *a, const char *b)
     return row[length_b];
 }
 
-const char *crv_nearest_name(const char *word, const char *const *candidates,
-                             int32_t count)
+const char *crv__nearest_name(const char *word, const char *const *candidates,
+                              int32_t count)
 {
     if (!word || !candidates)
         return NULL;
     /* A word of which more than a third would have to change is not a misspelling. */
     size_t limit = clipped_length(word) / 3 + 1;
     const char *nearest = NULL;
-    for (int32_t i = 0; count < 0 ? candidates[i] != NULL : i < count; i++) {
+    for (int32_t i = 0; count < 0 ? !!candidates[i] : i < count; i++) {
         size_t distance = edit_distance(word, candidates[i]);
         if (distance <= limit) {
             nearest = candidates[i];

@@ -2,16 +2,30 @@
 #include "core/backend.h"
 #include "core/conversions.h"
 
-#include <string.h>
+#include "base/structs.h"
 
 enum { MAX_THREADS = 1024 };
 
-void crv_context_desc_init(crv_context_desc *desc, size_t struct_size)
+static const crv__struct DESC = {.name = "context desc",
+                                 .init = "crv_context_desc_init()",
+                                 .first = CRV__SIZE_TO(crv_context_desc, logger),
+                                 .size = sizeof(crv_context_desc)};
+
+crv_status crv_context_desc_init(crv_context_desc *desc, size_t struct_size)
 {
-    if (!desc || struct_size < sizeof desc->struct_size)
-        return;
-    memset(desc, 0, struct_size);
-    desc->struct_size = struct_size;
+    const crv_context_desc defaults = {.struct_size = 0};
+    return crv__struct_init(&DESC, desc, struct_size, &defaults);
+}
+
+/* Where the line goes if the description itself is in doubt: its logger, if it has one
+ * that can be trusted. */
+static crv_status take_desc(const crv_context_desc *from, crv_context_desc *desc)
+{
+    *desc = (crv_context_desc){.struct_size = sizeof *desc};
+    if (!from)
+        return CRV_OK;
+    const crv_logger *logger = from->struct_size >= DESC.first ? &from->logger : NULL;
+    return crv__struct_take(&DESC, logger, from, desc);
 }
 
 enum { ROWS_A_TASK = 8 };
@@ -42,12 +56,11 @@ void crv__run_rows(const crv_context *context, int32_t height,
 
 crv_status crv__context_create_bare(const crv_context_desc *desc, crv_context **out)
 {
-    crv_context_desc defaults;
-    crv_context_desc_init(&defaults, sizeof defaults);
-    if (!desc)
-        desc = &defaults;
-    if (desc->struct_size != sizeof *desc)
-        return CRV_ERROR_INVALID_ARGUMENT;
+    crv_context_desc full;
+    crv_status status = take_desc(desc, &full);
+    if (status)
+        return status;
+    desc = &full;
     const crv_logger *logger = &desc->logger;
     if (!out)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT, "context: out is NULL");
@@ -83,7 +96,7 @@ crv_status crv__context_create_bare(const crv_context_desc *desc, crv_context **
                              .depth_layout = desc->depth_layout,
                              .backend = crv__backends[0],
                              .conversions = &crv__conversions_specified};
-    const crv_status status = context->backend->open(context, 0);
+    status = context->backend->open(context, 0);
     if (status)
         crv_context_destroy(context);
     else
@@ -106,13 +119,15 @@ crv_status crv_context_create(const crv_context_desc *desc, crv_context **out)
     crv_status status = crv__context_create_bare(desc, out ? &context : NULL);
     if (status)
         return status;
-    const crv__backend *backend = desc ? backend_of(desc->device) : context->backend;
+    crv_context_desc full;
+    take_desc(desc, &full);
+    const crv__backend *backend = backend_of(full.device);
     if (!backend)
         status =
-            crv__fail(&desc->logger, CRV_ERROR_INVALID_ARGUMENT,
-                      "context: device %d is neither CPU nor Vulkan", (int)desc->device);
+            crv__fail(&full.logger, CRV_ERROR_INVALID_ARGUMENT,
+                      "context: device %d is neither CPU nor Vulkan", (int)full.device);
     else if (backend != context->backend)
-        status = backend->open(context, desc->device_index);
+        status = backend->open(context, full.device_index);
     if (status)
         crv_context_destroy(context);
     else

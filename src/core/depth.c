@@ -12,7 +12,7 @@ crv_depth_format crv_depth_format_planar(void)
 
 typedef struct depth_job {
     crv_gbuffer *gbuffer;
-    const crv_image *image;
+    const crv_const_image *image;
     int32_t layer;
     crv__depth_map map;
 } depth_job;
@@ -75,7 +75,7 @@ static void convert_row(void *data, uint32_t row)
     const int32_t y = (int32_t)row;
     float *out = crv__plane_at(&job->gbuffer->depth[job->layer], 0, y);
     job->gbuffer->context->conversions->depth_row(
-        &job->map, crv_image_at(job->image, 0, y, 0),
+        &job->map, crv_const_image_at(job->image, 0, y, 0),
         job->image->pixel_stride / (ptrdiff_t)sizeof(float), y, job->gbuffer->desc.width,
         out);
 }
@@ -168,7 +168,8 @@ crv_status crv__depth_map_init(crv__depth_map *map, const crv_logger *logger,
     return CRV_OK;
 }
 
-crv_status crv_gbuffer_set_depth(crv_gbuffer *g, int32_t layer, const crv_image *image,
+crv_status crv_gbuffer_set_depth(crv_gbuffer *g, int32_t layer,
+                                 const crv_const_image *image,
                                  const crv_depth_format *format)
 {
     if (!g)
@@ -180,8 +181,7 @@ crv_status crv_gbuffer_set_depth(crv_gbuffer *g, int32_t layer, const crv_image 
     if (layer < 0 || layer >= g->desc.layers)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT, "depth: layer %d of %d",
                          layer, g->desc.layers);
-    status =
-        crv__image_check(logger, "depth", image, g->desc.width, g->desc.height, 1, 0);
+    status = crv__input_check(logger, "depth", image, g->desc.width, g->desc.height, 1);
     if (status)
         return status;
     depth_job job = {.gbuffer = g, .image = image, .layer = layer};

@@ -2,18 +2,22 @@
 /* The G-buffer's life: sizes, memory, state, and what goes in and out as it is. */
 #include "core/gbuffer.h"
 
+#include "base/structs.h"
 #include "core/camera.h"
 
 #include <math.h>
 #include <string.h>
 
-void crv_gbuffer_desc_init(crv_gbuffer_desc *desc, size_t struct_size, int32_t width,
-                           int32_t height)
+static const crv__struct DESC = {.name = "gbuffer desc",
+                                 .init = "crv_gbuffer_desc_init()",
+                                 .first = CRV__SIZE_TO(crv_gbuffer_desc, layer_kind),
+                                 .size = sizeof(crv_gbuffer_desc)};
+
+crv_status crv_gbuffer_desc_init(crv_gbuffer_desc *desc, size_t struct_size,
+                                 int32_t width, int32_t height)
 {
-    if (!desc || struct_size != sizeof *desc)
-        return;
-    *desc = (crv_gbuffer_desc){
-        .struct_size = struct_size, .width = width, .height = height, .layers = 1};
+    const crv_gbuffer_desc defaults = {.width = width, .height = height, .layers = 1};
+    return crv__struct_init(&DESC, desc, struct_size, &defaults);
 }
 
 bool crv_gbuffer_desc_equal(const crv_gbuffer_desc *a, const crv_gbuffer_desc *b)
@@ -25,12 +29,13 @@ bool crv_gbuffer_desc_equal(const crv_gbuffer_desc *a, const crv_gbuffer_desc *b
            && a->origin_y == b->origin_y;
 }
 
-crv_status crv__gbuffer_desc_check(const crv_logger *logger, const crv_gbuffer_desc *desc)
+crv_status crv__gbuffer_desc_take(const crv_logger *logger, const crv_gbuffer_desc *from,
+                                  crv_gbuffer_desc *desc)
 {
-    if (!desc || desc->struct_size != sizeof *desc)
-        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
-                         "gbuffer: desc is NULL or not initialised; begin with "
-                         "crv_gbuffer_desc_init()");
+    *desc = (crv_gbuffer_desc){.layers = 1};
+    const crv_status status = crv__struct_take(&DESC, logger, from, desc);
+    if (status)
+        return status;
     if (desc->width < 1 || desc->height < 1 || desc->width > CRV_MAX_SIZE
         || desc->height > CRV_MAX_SIZE)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
@@ -81,13 +86,14 @@ crv_status crv_gbuffer_create(crv_context *context, const crv_gbuffer_desc *desc
     if (!out)
         return crv__fail(&context->logger, CRV_ERROR_INVALID_ARGUMENT,
                          "gbuffer: out is NULL");
-    crv_status status = crv__gbuffer_desc_check(&context->logger, desc);
+    crv_gbuffer_desc full;
+    const crv_status status = crv__gbuffer_desc_take(&context->logger, desc, &full);
     if (status)
         return status;
     crv_gbuffer *g = crv__allocate(&context->allocator, 1, sizeof *g);
     if (g) {
         g->context = context;
-        g->desc = *desc;
+        g->desc = full;
         if (create_planes(g) == 0) {
             *out = g;
             return CRV_OK;
@@ -95,8 +101,8 @@ crv_status crv_gbuffer_create(crv_context *context, const crv_gbuffer_desc *desc
         crv_gbuffer_destroy(g);
     }
     return crv__fail(&context->logger, CRV_ERROR_OUT_OF_MEMORY,
-                     "gbuffer: no memory for %d x %d with %d layers", desc->width,
-                     desc->height, desc->layers);
+                     "gbuffer: no memory for %d x %d with %d layers", full.width,
+                     full.height, full.layers);
 }
 
 void crv_gbuffer_destroy(crv_gbuffer *g)
@@ -128,7 +134,7 @@ crv_status crv_gbuffer_set_camera(crv_gbuffer *g, const crv_camera *camera)
 
 typedef struct normals_job {
     crv_gbuffer *gbuffer;
-    const crv_image *image;
+    const crv_const_image *image;
     float rotation[9];
 } normals_job;
 
@@ -136,12 +142,12 @@ static void take_normals_row(void *data, uint32_t row)
 {
     const normals_job *job = data;
     const int32_t y = (int32_t)row;
-    const crv_image *image = job->image;
+    const crv_const_image *image = job->image;
     float *out[3];
     for (int i = 0; i < 3; i++)
         out[i] = crv__plane_at(&job->gbuffer->normal[i], 0, y);
     job->gbuffer->context->conversions->rotated_row(
-        job->rotation, crv_image_at(image, 0, y, 0),
+        job->rotation, crv_const_image_at(image, 0, y, 0),
         image->pixel_stride / (ptrdiff_t)sizeof(float),
         image->channel_stride / (ptrdiff_t)sizeof(float), job->gbuffer->desc.width, out);
 }
@@ -154,7 +160,7 @@ crv_status crv__gbuffer_need_camera(const crv_gbuffer *g, const char *what)
                      "%s: no camera yet; call crv_gbuffer_set_camera() first", what);
 }
 
-crv_status crv_gbuffer_set_normals(crv_gbuffer *g, const crv_image *image,
+crv_status crv_gbuffer_set_normals(crv_gbuffer *g, const crv_const_image *image,
                                    crv_normal_space space)
 {
     static const float IDENTITY[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -167,8 +173,8 @@ crv_status crv_gbuffer_set_normals(crv_gbuffer *g, const crv_image *image,
         if (space != CRV_NORMAL_VIEW && space != CRV_NORMAL_WORLD)
             return crv__fail(&g->context->logger, CRV_ERROR_INVALID_ARGUMENT,
                              "normals: space %d is neither view nor world", (int)space);
-        status = crv__image_check(&g->context->logger, "normals", image, g->desc.width,
-                                  g->desc.height, 3, 0);
+        status = crv__input_check(&g->context->logger, "normals", image, g->desc.width,
+                                  g->desc.height, 3);
         if (status)
             return status;
         normals_job job = {.gbuffer = g, .image = image};
@@ -177,7 +183,7 @@ crv_status crv_gbuffer_set_normals(crv_gbuffer *g, const crv_image *image,
                sizeof job.rotation);
         crv__run_rows(g->context, g->desc.height, take_normals_row, &job);
     }
-    g->has_normals = image != NULL;
+    g->has_normals = image ? 1 : 0;
     g->normals_ready = 0;
     return CRV_OK;
 }
@@ -244,7 +250,7 @@ crv_status crv_gbuffer_get_depth(crv_gbuffer *g, int32_t layer, const crv_image 
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT, "depth: layer %d of %d",
                          layer, g->desc.layers);
     crv_status status =
-        crv__image_check(logger, "depth", image, g->desc.width, g->desc.height, 1, 1);
+        crv__output_check(logger, "depth", image, g->desc.width, g->desc.height, 1);
     if (status == CRV_OK && !(g->has_depth >> layer & 1))
         status = crv__fail(logger, CRV_ERROR_NOT_READY,
                            "depth: layer %d has not been set", layer);
@@ -261,8 +267,8 @@ crv_status crv_gbuffer_get_normals(crv_gbuffer *g, const crv_image *image)
 {
     if (!g)
         return CRV_ERROR_INVALID_ARGUMENT;
-    crv_status status = crv__image_check(&g->context->logger, "normals", image,
-                                         g->desc.width, g->desc.height, 3, 1);
+    crv_status status = crv__output_check(&g->context->logger, "normals", image,
+                                          g->desc.width, g->desc.height, 3);
     if (status == CRV_OK)
         status = crv__gbuffer_prepare(g);
     if (status)

@@ -31,9 +31,10 @@ crv_status crv__depth_map_init(crv__depth_map *map, const crv_logger *logger,
 /* Planar depth of the value v at pixel (x, y) of the buffers; background INFINITY. */
 float crv__depth_map_apply(const crv__depth_map *map, int32_t x, int32_t y, float v);
 
-/* INVALID_ARGUMENT with a line unless the sizes make sense. */
-crv_status crv__gbuffer_desc_check(const crv_logger *logger,
-                                   const crv_gbuffer_desc *desc);
+/* Copies the host's description, of this or an earlier size. INVALID_ARGUMENT with a line
+ * unless the sizes make sense. */
+crv_status crv__gbuffer_desc_take(const crv_logger *logger, const crv_gbuffer_desc *from,
+                                  crv_gbuffer_desc *desc);
 
 /* NOT_READY with a line that begins with `what` where the G-buffer has no camera yet. */
 crv_status crv__gbuffer_need_camera(const crv_gbuffer *gbuffer, const char *what);

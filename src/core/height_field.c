@@ -43,7 +43,7 @@ static crv_status check_field(const crv_gbuffer *g, const crv_height_field *fiel
 {
     const crv_logger *logger = &g->context->logger;
     const int32_t width = g->desc.width, height = g->desc.height;
-    const crv_image *map = &field->height;
+    const crv_const_image *map = &field->height;
     if (!isfinite(field->scale)
         || (field->wrap != CRV_WRAP_REPEAT && field->wrap != CRV_WRAP_CLAMP))
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
@@ -55,20 +55,19 @@ static crv_status check_field(const crv_gbuffer *g, const crv_height_field *fiel
                          "height map: %d x %d; 1 to %d", map->width, map->height,
                          CRV_MAX_SIZE);
     crv_status status =
-        crv__image_check(logger, "height map", map, map->width, map->height, 1, 0);
+        crv__input_check(logger, "height map", map, map->width, map->height, 1);
     if (status == CRV_OK)
         status =
-            crv__image_check(logger, "height field uv", &field->uv, width, height, 2, 0);
+            crv__input_check(logger, "height field uv", &field->uv, width, height, 2);
+    if (status == CRV_OK)
+        status = crv__input_check(logger, "tangents", &field->tangent, width, height, 3);
     if (status == CRV_OK)
         status =
-            crv__image_check(logger, "tangents", &field->tangent, width, height, 3, 0);
-    if (status == CRV_OK)
-        status = crv__image_check(logger, "bitangents", &field->bitangent, width, height,
-                                  3, 0);
+            crv__input_check(logger, "bitangents", &field->bitangent, width, height, 3);
     return status;
 }
 
-static int create_planes(crv_gbuffer *g, const crv_image *map)
+static int create_planes(crv_gbuffer *g, const crv_const_image *map)
 {
     const crv_allocator *allocator = &g->context->allocator;
     for (int i = 0; i < FRAME_PLANES; i++) {
@@ -84,11 +83,12 @@ static int create_planes(crv_gbuffer *g, const crv_image *map)
     return crv__plane_create(height, allocator, 0, 0, map->width, map->height);
 }
 
-static void copy_channel(const crv_image *image, int32_t channel, const crv__plane *out)
+static void copy_channel(const crv_const_image *image, int32_t channel,
+                         const crv__plane *out)
 {
     for (int32_t y = 0; y < image->height; y++) {
         for (int32_t x = 0; x < image->width; x++)
-            *crv__plane_at(out, x, y) = *crv_image_at(image, x, y, channel);
+            *crv__plane_at(out, x, y) = *crv_const_image_at(image, x, y, channel);
     }
 }
 

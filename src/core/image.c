@@ -3,23 +3,33 @@
 
 #include "base/log.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 
 crv_image crv_image_packed(float *data, int32_t width, int32_t height, int32_t channels)
 {
-    ptrdiff_t pixel = (ptrdiff_t)channels * (ptrdiff_t)sizeof(float);
-    return (crv_image){data,
-                       width,
-                       height,
-                       channels,
-                       (ptrdiff_t)width * pixel,
-                       pixel,
-                       (ptrdiff_t)sizeof(float)};
+    const ptrdiff_t pixel = (ptrdiff_t)channels * (ptrdiff_t)sizeof(float);
+    return (crv_image){.data = data,
+                       .width = width,
+                       .height = height,
+                       .channels = channels,
+                       .row_stride = (ptrdiff_t)width * pixel,
+                       .pixel_stride = pixel,
+                       .channel_stride = (ptrdiff_t)sizeof(float)};
+}
+
+crv_const_image crv_const_image_packed(const float *data, int32_t width, int32_t height,
+                                       int32_t channels)
+{
+    crv_const_image image =
+        crv_image_const(crv_image_packed(NULL, width, height, channels));
+    image.data = data;
+    return image;
 }
 
 /* Whether no two components share memory, for the layouts that occur: each stride, taken
  * from small to large, must step over all that the smaller ones span. */
-static int strides_are_disjoint(const crv_image *image)
+static bool strides_are_disjoint(const crv_image *image)
 {
     struct {
         ptrdiff_t stride;
@@ -38,21 +48,21 @@ static int strides_are_disjoint(const crv_image *image)
         if (axes[next].count > 1) {
             ptrdiff_t stride = (ptrdiff_t)llabs(axes[next].stride);
             if (stride < span)
-                return 0;
+                return false;
             span += stride * (axes[next].count - 1);
         }
         axes[next].count = 0;
     }
-    return 1;
+    return true;
 }
 
-crv_status crv__image_check(const crv_logger *logger, const char *what,
-                            const crv_image *image, int32_t width, int32_t height,
-                            int32_t channels, int writes)
+crv_status crv__input_check(const crv_logger *logger, const char *what,
+                            const crv_const_image *image, int32_t width, int32_t height,
+                            int32_t channels)
 {
     if (!image || !image->data)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
-                         "%s: image or its data is NULL; pass a filled crv_image", what);
+                         "%s: image or its data is NULL; pass a filled image", what);
     if (image->width != width || image->height != height)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "%s: image is %d x %d, expected %d x %d", what, image->width,
@@ -74,13 +84,24 @@ crv_status crv__image_check(const crv_logger *logger, const char *what,
     if ((uintptr_t)image->data % sizeof(float) != 0)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "%s: data is not aligned to 4 bytes", what);
-    if (writes && !strides_are_disjoint(image))
+    return CRV_OK;
+}
+
+crv_status crv__output_check(const crv_logger *logger, const char *what,
+                             const crv_image *image, int32_t width, int32_t height,
+                             int32_t channels)
+{
+    const crv_const_image view =
+        image ? crv_image_const(*image) : (crv_const_image){.data = NULL};
+    const crv_status status =
+        crv__input_check(logger, what, &view, width, height, channels);
+    if (status == CRV_OK && !strides_are_disjoint(image))
         return crv__fail(
             logger, CRV_ERROR_INVALID_ARGUMENT,
             "%s: strides make pixels overlap; an output needs its own memory for "
             "each pixel",
             what);
-    return CRV_OK;
+    return status;
 }
 
 int crv__plane_create(crv__plane *plane, const crv_allocator *allocator, int32_t x0,

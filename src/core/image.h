@@ -6,12 +6,15 @@
 #include "base/alloc.h"
 #include "crevice/image.h"
 
-/* INVALID_ARGUMENT with a line that begins with `what` unless the image is this large,
- * has this many channels, and strides that are multiples of 4 and do not let pixels
- * overlap (`writes`). */
-crv_status crv__image_check(const crv_logger *logger, const char *what,
-                            const crv_image *image, int32_t width, int32_t height,
-                            int32_t channels, int writes);
+/* INVALID_ARGUMENT with a line that begins with `what` unless the image has this size and
+ * number of channels, strides that are multiples of 4 and, if it is an output, no
+ * pixels that overlap. */
+crv_status crv__input_check(const crv_logger *logger, const char *what,
+                            const crv_const_image *image, int32_t width, int32_t height,
+                            int32_t channels);
+crv_status crv__output_check(const crv_logger *logger, const char *what,
+                             const crv_image *image, int32_t width, int32_t height,
+                             int32_t channels);
 
 /* One component of a rectangle of pixels [x0, x0 + width) x [y0, y0 + height); rows are
  * padded to 64 bytes. */

@@ -10,7 +10,8 @@
 
 typedef struct gather_job {
     const crv_gbuffer *gbuffer;
-    const crv_image *accessibility, *sample_depth, *result;
+    const crv_const_image *accessibility, *sample_depth;
+    const crv_image *result;
     crv__depth_map map;
     float depth_range;
 } gather_job;
@@ -24,7 +25,7 @@ typedef struct cross {
 static cross cross_at(const gather_job *job, int32_t x, int32_t y)
 {
     static const int32_t OFFSETS[5][2] = {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}};
-    const crv_image *image = job->accessibility;
+    const crv_const_image *image = job->accessibility;
     const crv_gbuffer_desc *desc = &job->gbuffer->desc;
     cross c = {.count = 0};
     for (int32_t i = 0; i < 5; i++) {
@@ -35,7 +36,7 @@ static cross cross_at(const gather_job *job, int32_t x, int32_t y)
                                        v + desc->guard_top);
         if (!(d < INFINITY))
             continue;
-        const float a = *crv_image_at(image, u, v, 0);
+        const float a = *crv_const_image_at(image, u, v, 0);
         c.depth[c.count] = d;
         c.accessibility[c.count++] = isfinite(a) ? fminf(fmaxf(a, 0), 1) : 1;
     }
@@ -71,15 +72,15 @@ static void gather_row(void *data, uint32_t row)
         for (int32_t s = 0; s < job->result->channels; s++) {
             const float d =
                 crv__depth_map_apply(&job->map, x + desc->guard_left, y + desc->guard_top,
-                                     *crv_image_at(job->sample_depth, x, y, s));
+                                     *crv_const_image_at(job->sample_depth, x, y, s));
             *crv_image_at(job->result, x, y, s) =
                 d < INFINITY ? gather(&c, d, job->depth_range) : 1;
         }
     }
 }
 
-static crv_status check(const crv_gbuffer *g, const crv_image *accessibility,
-                        const crv_image *sample_depth, float depth_range,
+static crv_status check(const crv_gbuffer *g, const crv_const_image *accessibility,
+                        const crv_const_image *sample_depth, float depth_range,
                         const crv_image *result)
 {
     const crv_logger *logger = &g->context->logger;
@@ -99,20 +100,21 @@ static crv_status check(const crv_gbuffer *g, const crv_image *accessibility,
                          "sample depth: %d channels; one for each sample, 2 to %d",
                          samples, CRV_MAX_SUBSAMPLES);
     crv_status status =
-        crv__image_check(logger, "accessibility", accessibility, width, height, 1, 0);
+        crv__input_check(logger, "accessibility", accessibility, width, height, 1);
     if (status == CRV_OK)
-        status = crv__image_check(logger, "sample depth", sample_depth, width, height,
-                                  samples, 0);
+        status = crv__input_check(logger, "sample depth", sample_depth, width, height,
+                                  samples);
     if (status == CRV_OK)
-        status = crv__image_check(logger, "result", result, width, height, samples, 1);
+        status = crv__output_check(logger, "result", result, width, height, samples);
     if (status == CRV_OK && result->data == accessibility->data)
         status = crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                            "result: is the accessibility image too; give it its own");
     return status;
 }
 
-crv_status crv_multisample_gather(crv_gbuffer *gbuffer, const crv_image *accessibility,
-                                  const crv_image *sample_depth,
+crv_status crv_multisample_gather(crv_gbuffer *gbuffer,
+                                  const crv_const_image *accessibility,
+                                  const crv_const_image *sample_depth,
                                   const crv_depth_format *format, float depth_range,
                                   const crv_image *result)
 {

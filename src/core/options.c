@@ -3,6 +3,7 @@
 #include "core/options.h"
 
 #include "base/log.h"
+#include "base/structs.h"
 #include "core/registry.h"
 
 #include <math.h>
@@ -172,20 +173,9 @@ int crv_option_applies(const crv_option *option, const crv_method *method,
     return filter && lists(filter->options, option->key);
 }
 
-double crv_options_get(const crv_options *options, const crv_option *option)
+bool crv__options_have(const crv_options *options, const crv_option *option)
 {
-    const row *r = row_of(option);
-    if (!options || !r)
-        return NAN;
-    const char *member = (const char *)options + r->offset;
-    if (option->type == CRV_OPTION_FLOAT) {
-        float value;
-        memcpy(&value, member, sizeof value);
-        return (double)value;
-    }
-    int32_t value; /* enums are int-sized: see the assertion */
-    memcpy(&value, member, sizeof value);
-    return value;
+    return row_of(option)->offset + 4 <= options->struct_size;
 }
 
 _Static_assert(sizeof(crv_falloff) == 4 && sizeof(crv_attenuation) == 4,
@@ -203,18 +193,56 @@ void crv__options_put(crv_options *options, const crv_option *option, double val
     }
 }
 
+static const crv__struct OPTIONS = {.name = "options",
+                                    .init = "crv_options_init()",
+                                    .first = CRV__SIZE_TO(crv_options, radius),
+                                    .size = sizeof(crv_options)};
+
+bool crv__options_known(const crv_options *options)
+{
+    return options && options->struct_size >= OPTIONS.first
+           && options->struct_size <= OPTIONS.size;
+}
+
+/* The defaults for a method, preset included. */
+static crv_options defaults_of(const crv_method *method)
+{
+    crv_options options = {.struct_size = sizeof options,
+                           .method = method,
+                           .filter = crv_filter_find("bilateral13")};
+    for (int i = 0; i < ROW_COUNT; i++)
+        crv__options_put(&options, &TABLE[i].info, TABLE[i].info.default_value);
+    crv_options_preset(&options, CRV_PRESET_MEDIUM);
+    return options;
+}
+
 crv_status crv_options_init(crv_options *options, size_t struct_size, const char *method)
 {
     const crv_method *chosen = crv_method_find(method ? method : "hbao");
-    if (!options || struct_size != sizeof *options || !chosen)
+    if (!chosen)
         return CRV_ERROR_INVALID_ARGUMENT;
-    memset(options, 0, sizeof *options);
-    options->struct_size = struct_size;
-    options->method = chosen;
-    options->filter = crv_filter_find("bilateral13");
-    for (int i = 0; i < ROW_COUNT; i++)
-        crv__options_put(options, &TABLE[i].info, TABLE[i].info.default_value);
-    return crv_options_preset(options, CRV_PRESET_MEDIUM);
+    const crv_options defaults = defaults_of(chosen);
+    return crv__struct_init(&OPTIONS, options, struct_size, &defaults);
+}
+
+double crv_options_get(const crv_options *options, const crv_option *option)
+{
+    const row *r = row_of(option);
+    if (!options || !r)
+        return NAN;
+    if (!crv__options_have(options, option)) {
+        const crv_options defaults = defaults_of(options->method);
+        return crv_options_get(&defaults, option);
+    }
+    const char *member = (const char *)options + r->offset;
+    if (option->type == CRV_OPTION_FLOAT) {
+        float value;
+        memcpy(&value, member, sizeof value);
+        return (double)value;
+    }
+    int32_t value; /* enums are int-sized: see the assertion */
+    memcpy(&value, member, sizeof value);
+    return value;
 }
 
 crv_status crv__option_check(const crv_option *option, double value,
@@ -235,7 +263,7 @@ crv_status crv__option_check(const crv_option *option, double value,
 
 static int is_registered(const crv_options *options)
 {
-    int method = 0, filter = options->filter == NULL;
+    int method = 0, filter = !options->filter;
     for (int32_t i = 0; i < crv_method_count(); i++)
         method |= crv_method_at(i) == options->method;
     for (int32_t i = 0; i < crv_filter_count(); i++)
@@ -243,13 +271,8 @@ static int is_registered(const crv_options *options)
     return method && filter;
 }
 
-crv_status crv_options_check(const crv_options *options, const crv_logger *logger)
+static crv_status check_values(const crv_options *options, const crv_logger *logger)
 {
-    if (!options || options->struct_size != sizeof *options || !is_registered(options))
-        return crv__fail(
-            logger, CRV_ERROR_INVALID_ARGUMENT,
-            "options: NULL, not initialised, or with an unknown method or filter; "
-            "begin with crv_options_init()");
     for (int i = 0; i < ROW_COUNT; i++) {
         const crv_option *option = &TABLE[i].info;
         const double value = crv_options_get(options, option);
@@ -267,4 +290,26 @@ crv_status crv_options_check(const crv_options *options, const crv_logger *logge
                      options->filter ? options->filter->name : "none");
     }
     return CRV_OK;
+}
+
+crv_status crv__options_take(const crv_logger *logger, const crv_options *from,
+                             crv_options *options)
+{
+    crv_options given = {.struct_size = 0};
+    crv_status status = crv__struct_take(&OPTIONS, logger, from, &given);
+    if (status == CRV_OK && !is_registered(&given))
+        status = crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                           "options: unknown method or filter; take them from the "
+                           "registry, and begin with crv_options_init()");
+    if (status)
+        return status;
+    *options = defaults_of(given.method);
+    crv__struct_take(&OPTIONS, logger, from, options);
+    return check_values(options, logger);
+}
+
+crv_status crv_options_check(const crv_options *options, const crv_logger *logger)
+{
+    crv_options full;
+    return crv__options_take(logger, options, &full);
 }

@@ -3,6 +3,7 @@
 #include "core/options.h"
 
 #include "base/log.h"
+#include "base/names.h"
 #include "core/registry.h"
 
 #include <ctype.h>
@@ -16,7 +17,7 @@ enum { MAX_NAMES = 64 };
 static crv_status unknown(const crv_logger *logger, const char *what, const char *word,
                           const char *const *names, int32_t count)
 {
-    const char *nearest = crv_nearest_name(word, names, count);
+    const char *nearest = crv__nearest_name(word, names, count);
     if (nearest)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "%s: unknown name '%s'; did you mean '%s'?", what, word,
@@ -126,7 +127,7 @@ static crv_status unknown_key(const char *key, const crv_logger *logger)
 crv_status crv_options_set(crv_options *options, const char *key, const char *value,
                            const crv_logger *logger)
 {
-    if (!options || options->struct_size != sizeof *options || !key || !value)
+    if (!crv__options_known(options) || !key || !value)
         return crv__fail(
             logger, CRV_ERROR_INVALID_ARGUMENT,
             "options: NULL or not initialised; begin with crv_options_init()");
@@ -137,6 +138,11 @@ crv_status crv_options_set(crv_options *options, const char *key, const char *va
     const crv_option *option = crv_option_find(key);
     if (!option)
         return unknown_key(key, logger);
+    if (!crv__options_have(options, option))
+        return crv__fail(logger, CRV_ERROR_UNSUPPORTED,
+                         "%s: this program was built with headers that do not have it; "
+                         "build it again with those of libcrevice %s",
+                         option->key, crv_version());
     double number = 0;
     crv_status status = parse_value(option, value, &number, logger);
     if (status == CRV_OK)
@@ -160,16 +166,15 @@ const char *crv_preset_text(const crv_method *method, crv_preset preset)
 
 crv_status crv_options_preset(crv_options *options, crv_preset preset)
 {
-    if (!options || options->struct_size != sizeof *options || !options->method
-        || !crv_preset_name(preset))
+    if (!crv__options_known(options) || !options->method || !crv_preset_name(preset))
         return CRV_ERROR_INVALID_ARGUMENT;
     const char *text = crv_preset_text(options->method, preset);
     char key[32], value[32];
     int length = 0;
     /* The texts are the methods' own, and a test reads every one of them. */
     while (sscanf(text, " %31[^=]=%31s%n", key, value, &length) == 2) {
-        crv_status status = crv_options_set(options, key, value, NULL);
-        if (status)
+        const crv_status status = crv_options_set(options, key, value, NULL);
+        if (status && status != CRV_ERROR_UNSUPPORTED) /* an earlier struct_size */
             return status;
         text += length;
     }

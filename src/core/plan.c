@@ -39,16 +39,15 @@ crv_status crv_plan_create(crv_context *context, const crv_options *options,
     const crv_logger *logger = &context->logger;
     if (!out)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT, "plan: out is NULL");
-    crv_status status = crv_options_check(options, logger);
-    if (status == CRV_OK)
-        status = crv__gbuffer_desc_check(logger, desc);
+    crv__setup setup;
+    crv_status status = crv__setup_take(context, options, desc, &setup);
     if (status)
         return status;
-    warn_of_layers(logger, options, desc);
+    warn_of_layers(logger, &setup.options, &setup.desc);
     crv_plan *plan = crv__allocate(&context->allocator, 1, sizeof *plan);
     if (plan) {
         plan->context = context;
-        plan->setup = crv__setup_make(context, options, desc);
+        plan->setup = setup;
         crv__setup_params(&plan->setup, &plan->params);
         if (crv__setup_patterns(&plan->setup) == CRV_OK && create_planes(plan)) {
             status = context->backend->plan_create(&plan->setup, &plan->planes[0],
@@ -62,7 +61,7 @@ crv_status crv_plan_create(crv_context *context, const crv_options *options,
         crv_plan_destroy(plan);
     }
     return crv__fail(logger, CRV_ERROR_OUT_OF_MEMORY, "plan: no memory for %d x %d",
-                     desc->width, desc->height);
+                     setup.desc.width, setup.desc.height);
 }
 
 void crv_plan_destroy(crv_plan *plan)

@@ -6,15 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-static crv_status check_image(const crv_plan *plan, const char *what,
-                              const crv_image *image, int writes)
-{
-    const crv_gbuffer_desc *d = &plan->setup.desc;
-    return crv__image_check(&plan->context->logger, what, image,
-                            d->width - d->guard_left - d->guard_right,
-                            d->height - d->guard_top - d->guard_bottom, 1, writes);
-}
-
 /* Which characteristic functions this frame has and the options ask for. A field alone
  * that is not there leaves everything outside. */
 static void select_characteristic(crv_plan *plan, int32_t has_field)
@@ -34,7 +25,10 @@ static crv_status begin(crv_plan *plan, crv_gbuffer *g, const crv_image *result,
         || !crv_gbuffer_desc_equal(&g->desc, &plan->setup.desc))
         return crv__fail(&plan->context->logger, CRV_ERROR_INVALID_ARGUMENT,
                          "plan: the G-buffer was made with another desc or context");
-    crv_status status = check_image(plan, "result", result, 1);
+    const crv_gbuffer_desc *d = &plan->setup.desc;
+    crv_status status = crv__output_check(&plan->context->logger, "result", result,
+                                          d->width - d->guard_left - d->guard_right,
+                                          d->height - d->guard_top - d->guard_bottom, 1);
     if (status == CRV_OK)
         status = crv__gbuffer_prepare(g);
     if (status)
@@ -94,7 +88,7 @@ crv_status crv_plan_run(crv_plan *plan, crv_gbuffer *gbuffer, const crv_image *r
 
 typedef struct take_job {
     const crv_plan *plan;
-    const crv_image *from;
+    const crv_const_image *from;
     const crv__plane *to;
 } take_job;
 
@@ -112,20 +106,22 @@ static void take_row(void *data, uint32_t index)
     for (int32_t x = 0; x < left; x++)
         row[x] = NAN;
     const ptrdiff_t stride = job->from->pixel_stride / (ptrdiff_t)sizeof(float);
-    const float *from = holds ? crv_image_at(job->from, 0, y - d->guard_top, 0) : NULL;
+    const float *from =
+        holds ? crv_const_image_at(job->from, 0, y - d->guard_top, 0) : NULL;
     for (int32_t x = 0; x < count; x++)
         row[left + x] = fabsf(from[x * stride]) < INFINITY ? from[x * stride] : 1;
     for (int32_t x = left + count; x < job->to->width; x++)
         row[x] = NAN;
 }
 
-crv_status crv_plan_filter(crv_plan *plan, crv_gbuffer *gbuffer, const crv_image *input,
-                           const crv_image *result)
+crv_status crv_plan_filter(crv_plan *plan, crv_gbuffer *gbuffer,
+                           const crv_const_image *input, const crv_image *result)
 {
     crv__frame frame;
     crv_status status = begin(plan, gbuffer, result, &frame);
     if (status == CRV_OK)
-        status = check_image(plan, "input", input, 0);
+        status = crv__input_check(&plan->context->logger, "input", input, result->width,
+                                  result->height, 1);
     if (status)
         return status;
     take_job job = {plan, input, &plan->planes[0]};

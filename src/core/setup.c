@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "core/setup.h"
 
+#include "core/gbuffer.h"
 #include "core/noise.h"
+#include "core/options.h"
 
 #include <math.h>
 
@@ -16,6 +18,19 @@ crv__setup crv__setup_make(const crv_context *context, const crv_options *option
                             options->filter ? crv__filter_of(options->filter) : NULL,
                         .options = *options,
                         .desc = *desc};
+}
+
+crv_status crv__setup_take(const crv_context *context, const crv_options *options,
+                           const crv_gbuffer_desc *desc, crv__setup *setup)
+{
+    crv_options full_options;
+    crv_gbuffer_desc full_desc;
+    crv_status status = crv__options_take(&context->logger, options, &full_options);
+    if (status == CRV_OK)
+        status = crv__gbuffer_desc_take(&context->logger, desc, &full_desc);
+    if (status == CRV_OK)
+        *setup = crv__setup_make(context, &full_options, &full_desc);
+    return status;
 }
 
 /* ---- params ---- */

@@ -21,7 +21,12 @@ typedef struct crv__setup {
     size_t noise_count, direction_count, point_count; /* that there is memory for */
 } crv__setup;
 
-/* A setup without its patterns. options and desc are valid. */
+/* Copies and checks what the host says, and makes a setup of it without its patterns.
+ * INVALID_ARGUMENT with a line. */
+crv_status crv__setup_take(const crv_context *context, const crv_options *options,
+                           const crv_gbuffer_desc *desc, crv__setup *setup);
+
+/* A setup without its patterns. options and desc are valid, of today's sizes. */
 crv__setup crv__setup_make(const crv_context *context, const crv_options *options,
                            const crv_gbuffer_desc *desc);
 

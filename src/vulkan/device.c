@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "vulkan/pipelines.h"
 
+#include "base/structs.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -211,12 +213,13 @@ static crv_status open_own(crv__device *d, int32_t index)
 
 /* ---- the host's device ---- */
 
+static const crv__struct HOST = {.name = "vulkan host",
+                                 .init = "crv_vulkan_host_init()",
+                                 .first = CRV__SIZE_TO(crv_vulkan_host, memory),
+                                 .size = sizeof(crv_vulkan_host)};
+
 static crv_status check_host(const crv_logger *logger, const crv_vulkan_host *host)
 {
-    if (!host || host->struct_size != sizeof *host)
-        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
-                         "vulkan: host is NULL or not initialised; begin with "
-                         "crv_vulkan_host_init()");
     if (!host->instance || !host->physical_device || !host->device)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "vulkan: instance, physical_device and device must be set");
@@ -324,11 +327,10 @@ crv_status crv__vulkan_open(crv_context *context, int32_t index)
     return d ? adopt(context, d, open_own(d, index)) : CRV_ERROR_OUT_OF_MEMORY;
 }
 
-void crv_vulkan_host_init(crv_vulkan_host *host, size_t struct_size)
+crv_status crv_vulkan_host_init(crv_vulkan_host *host, size_t struct_size)
 {
-    if (!host || struct_size != sizeof *host)
-        return;
-    *host = (crv_vulkan_host){.struct_size = struct_size};
+    const crv_vulkan_host defaults = {.struct_size = 0};
+    return crv__struct_init(&HOST, host, struct_size, &defaults);
 }
 
 crv_status crv_vulkan_context_create(const crv_context_desc *desc,
@@ -338,7 +340,11 @@ crv_status crv_vulkan_context_create(const crv_context_desc *desc,
     crv_status status = crv__context_create_bare(desc, out ? &context : NULL);
     if (status)
         return status;
-    status = check_host(&context->logger, host);
+    crv_vulkan_host full = {.struct_size = 0};
+    status = crv__struct_take(&HOST, &context->logger, host, &full);
+    host = &full;
+    if (status == CRV_OK)
+        status = check_host(&context->logger, host);
     if (status == CRV_OK) {
         crv__device *d = device_make(&context->logger, &context->allocator);
         status = d ? adopt(context, d, open_host(d, host)) : CRV_ERROR_OUT_OF_MEMORY;

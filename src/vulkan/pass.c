@@ -3,6 +3,7 @@
 #include "vulkan/formats.h"
 #include "vulkan/slot.h"
 
+#include "base/structs.h"
 #include "core/camera.h"
 #include "core/gbuffer.h"
 
@@ -20,22 +21,26 @@ struct crv_vulkan_pass {
 
 /* ---- what a pass is made for ---- */
 
-void crv_vulkan_pass_desc_init(crv_vulkan_pass_desc *desc, size_t struct_size)
+static const crv__struct DESC = {.name = "pass desc",
+                                 .init = "crv_vulkan_pass_desc_init()",
+                                 .first = CRV__SIZE_TO(crv_vulkan_pass_desc, frames),
+                                 .size = sizeof(crv_vulkan_pass_desc)};
+static const crv_vulkan_pass_desc DESC_DEFAULTS = {.frames = 2,
+                                                   .depth_format = VK_FORMAT_D32_SFLOAT,
+                                                   .result_format = VK_FORMAT_R8_UNORM};
+
+crv_status crv_vulkan_pass_desc_init(crv_vulkan_pass_desc *desc, size_t struct_size)
 {
-    if (!desc || struct_size != sizeof *desc)
-        return;
-    *desc = (crv_vulkan_pass_desc){.struct_size = struct_size,
-                                   .frames = 2,
-                                   .depth_format = VK_FORMAT_D32_SFLOAT,
-                                   .result_format = VK_FORMAT_R8_UNORM};
+    return crv__struct_init(&DESC, desc, struct_size, &DESC_DEFAULTS);
 }
 
-static crv_status check_desc(const crv_logger *logger, const crv_vulkan_pass_desc *desc)
+static crv_status take_desc(const crv_logger *logger, const crv_vulkan_pass_desc *from,
+                            crv_vulkan_pass_desc *desc)
 {
-    if (!desc || desc->struct_size != sizeof *desc)
-        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
-                         "pass: desc is NULL or not initialised; begin with "
-                         "crv_vulkan_pass_desc_init()");
+    *desc = DESC_DEFAULTS;
+    const crv_status status = crv__struct_take(&DESC, logger, from, desc);
+    if (status)
+        return status;
     if (desc->frames < 1 || desc->frames > CRV_VULKAN_MAX_FRAMES)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "pass: %d frames in flight; 1 to %d", desc->frames,
@@ -113,16 +118,15 @@ crv_status crv_vulkan_pass_create(crv_context *context, const crv_options *optio
         return crv__fail(logger, CRV_ERROR_UNSUPPORTED,
                          "pass: the context has no Vulkan device; make it with "
                          "crv_vulkan_context_create()");
-    crv_status status = crv_options_check(options, logger);
+    crv__setup setup;
+    crv_vulkan_pass_desc full;
+    crv_status status = crv__setup_take(context, options, gbuffer, &setup);
     if (status == CRV_OK)
-        status = crv__gbuffer_desc_check(logger, gbuffer);
+        status = take_desc(logger, desc, &full);
     if (status == CRV_OK)
-        status = check_desc(logger, desc);
-    if (status == CRV_OK)
-        status = crv__formats_check(d, desc);
+        status = crv__formats_check(d, &full);
     if (status)
         return status;
-    const crv__setup setup = crv__setup_make(context, options, gbuffer);
     status = crv__setup_check(d, &setup);
     if (status)
         return status;
@@ -132,7 +136,7 @@ crv_status crv_vulkan_pass_create(crv_context *context, const crv_options *optio
     p->context = context;
     p->device = d;
     p->setup = setup;
-    p->desc = *desc;
+    p->desc = full;
     status = create_parts(p);
     if (status)
         crv_vulkan_pass_destroy(p);
@@ -163,19 +167,28 @@ uint64_t crv_vulkan_pass_bytes(const crv_vulkan_pass *p)
 
 /* ---- a frame ---- */
 
-void crv_vulkan_frame_init(crv_vulkan_frame *frame, size_t struct_size)
+static const crv__struct FRAME = {.name = "frame",
+                                  .init = "crv_vulkan_frame_init()",
+                                  .first = CRV__SIZE_TO(crv_vulkan_frame, result_access),
+                                  .size = sizeof(crv_vulkan_frame)};
+
+static crv_vulkan_frame default_frame(void)
 {
-    if (!frame || struct_size != sizeof *frame)
-        return;
-    *frame = (crv_vulkan_frame){.struct_size = struct_size,
-                                .depth_encoding = crv_depth_format_planar(),
-                                .result_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-                                .result_stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT
-                                                 | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                                .result_access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+    crv_vulkan_frame frame = {.depth_encoding = crv_depth_format_planar(),
+                              .result_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                              .result_stages = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT
+                                               | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                              .result_access = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
     for (int i = 0; i < CRV_MAX_LAYERS; i++)
-        frame->depth[i].layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    frame->normals.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+        frame.depth[i].layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    frame.normals.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    return frame;
+}
+
+crv_status crv_vulkan_frame_init(crv_vulkan_frame *frame, size_t struct_size)
+{
+    const crv_vulkan_frame defaults = default_frame();
+    return crv__struct_init(&FRAME, frame, struct_size, &defaults);
 }
 
 static crv_status check_frame(const crv_vulkan_pass *p, VkCommandBuffer commands,
@@ -185,10 +198,6 @@ static crv_status check_frame(const crv_vulkan_pass *p, VkCommandBuffer commands
     if (!commands)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "pass: the command buffer is NULL");
-    if (!frame || frame->struct_size != sizeof *frame)
-        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
-                         "pass: frame is NULL or not initialised; begin with "
-                         "crv_vulkan_frame_init()");
     if (frame->index < 0 || frame->index >= p->desc.frames)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "pass: index is %d; use 0 to %d, one for each frame in flight",
@@ -292,7 +301,11 @@ crv_status crv_vulkan_pass_record(crv_vulkan_pass *p, VkCommandBuffer commands,
 {
     if (!p)
         return CRV_ERROR_INVALID_ARGUMENT;
-    crv_status status = check_frame(p, commands, frame);
+    crv_vulkan_frame full = default_frame();
+    crv_status status = crv__struct_take(&FRAME, &p->context->logger, frame, &full);
+    frame = &full;
+    if (status == CRV_OK)
+        status = check_frame(p, commands, frame);
     crv__depth_map map;
     if (status == CRV_OK)
         status = crv__depth_map_init(&map, &p->context->logger, &frame->camera,

@@ -16,7 +16,7 @@ static float centre_of(const crv_options *options, float *depth)
     crv_plan *plan = NULL;
     crv_gbuffer_desc desc;
     crv_camera camera = crv_camera_orthographic(SIZE, SIZE, 2.0f);
-    crv_image input = crv_image_packed(depth, SIZE, SIZE, 1);
+    crv_const_image input = crv_const_image_packed(depth, SIZE, SIZE, 1);
     crv_image result = crv_image_packed(accessibility, SIZE, SIZE, 1);
 
     crv_gbuffer_desc_init(&desc, sizeof desc, SIZE, SIZE);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "args.h"
 
+#include "nearest.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -89,7 +91,7 @@ static int unknown_flag(const command *c, const char *flag, report *r)
         names[count] = keys[count];
         count++;
     }
-    const char *nearest = crv_nearest_name(flag + strspn(flag, "-"), names, count);
+    const char *nearest = nearest_name(flag + strspn(flag, "-"), names, count);
     if (nearest)
         report_error(r, "%s: no such option; did you mean --%s?", flag, nearest);
     else
@@ -104,7 +106,7 @@ static int wrong_value(const arg *row, const char *text, report *r)
 
     args_describe_values(row, values, sizeof values);
     if (row->type == ARG_CHOICE)
-        nearest = crv_nearest_name(text, row->choices, -1);
+        nearest = nearest_name(text, row->choices, -1);
     if (nearest)
         report_error(r, "%s: \"%s\" is not one of %s; did you mean %s?", row->name, text,
                      values, nearest);
@@ -202,7 +204,7 @@ static int set_preset(int argc, char **argv, common_settings *common, report *r)
     }
     if (!name)
         return EXIT_DONE;
-    const char *nearest = crv_nearest_name(name, names, CRV_PRESET_COUNT);
+    const char *nearest = nearest_name(name, names, CRV_PRESET_COUNT);
     if (nearest)
         report_error(r, "--preset: no preset \"%s\"; did you mean %s?", name, nearest);
     else

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "view.h"
 
+#include "nearest.h"
+
 #include <math.h>
 #include <string.h>
 

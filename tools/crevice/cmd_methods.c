@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "common/help.h"
+#include "common/nearest.h"
 
 typedef struct methods_settings {
     common_settings common;
@@ -211,7 +212,7 @@ static int unknown_name(const char *name, report *r)
         names[count++] = crv_method_at(i)->name;
     for (int32_t i = 0; i < crv_filter_count() && count < 64; i++)
         names[count++] = crv_filter_at(i)->name;
-    const char *nearest = crv_nearest_name(name, names, count);
+    const char *nearest = nearest_name(name, names, count);
     if (nearest)
         report_error(r, "%s: no such method or filter; did you mean %s?", name, nearest);
     else

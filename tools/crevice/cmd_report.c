@@ -14,6 +14,7 @@
 #include "common/text.h"
 #include "common/output.h"
 #include "study/views.h"
+#include "common/nearest.h"
 
 typedef struct report_settings {
     common_settings common;
@@ -120,7 +121,7 @@ static int check_sections(const report_settings *s, report *r)
             found = found || strcmp(names[i], s->only.value[k]) == 0;
         if (found)
             continue;
-        nearest = crv_nearest_name(s->only.value[k], names, SECTION_COUNT);
+        nearest = nearest_name(s->only.value[k], names, SECTION_COUNT);
         if (nearest != NULL)
             report_error(r, "--only: no section \"%s\"; did you mean %s?",
                          s->only.value[k], nearest);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "render.h"
+#include "common/nearest.h"
 
 static const double degree = 3.14159265358979323846 / 180.0;
 
@@ -151,7 +152,7 @@ static int set_sky(const char *text, lighting *l, report *r)
     }
     if (is_picture(text))
         return load_picture(text, l, r);
-    const char *nearest = crv_nearest_name(text, kinds, -1);
+    const char *nearest = nearest_name(text, kinds, -1);
     if (nearest)
         report_error(r, "--sky: no sky \"%s\"; did you mean %s?", text, nearest);
     else

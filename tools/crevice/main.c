@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "common/help.h"
+#include "common/nearest.h"
 
 static const command *const commands[] = {&command_render,  &command_ao,
                                           &command_gbuffer, &command_reference,
@@ -25,7 +26,7 @@ static const command *find_command(const char *name, report *r)
             return commands[count];
         names[count] = commands[count]->name;
     }
-    const char *nearest = crv_nearest_name(name, names, count);
+    const char *nearest = nearest_name(name, names, count);
     if (nearest)
         report_error(r, "%s: no such command; did you mean %s?", name, nearest);
     else

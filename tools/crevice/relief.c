@@ -137,10 +137,11 @@ int relief_apply(const render_settings *s, const io_image *map, const scene_gbuf
     if (!s->height_map)
         return EXIT_DONE;
     crv_height_field field = (crv_height_field){
-        .uv = crv_image_packed(g->uv, width, height, 2),
-        .tangent = crv_image_packed(g->tangent, width, height, 3),
-        .bitangent = crv_image_packed(g->bitangent, width, height, 3),
-        .height = crv_image_packed(map->channels[0].data, map->width, map->height, 1),
+        .uv = crv_const_image_packed(g->uv, width, height, 2),
+        .tangent = crv_const_image_packed(g->tangent, width, height, 3),
+        .bitangent = crv_const_image_packed(g->bitangent, width, height, 3),
+        .height =
+            crv_const_image_packed(map->channels[0].data, map->width, map->height, 1),
         .scale = (float)s->height_scale.value,
         .wrap = (crv_wrap)s->height_wrap.value,
     };

@@ -7,6 +7,7 @@
 #include "bench/bench.h"
 #include "common/device.h"
 #include "common/machine.h"
+#include "common/nearest.h"
 
 enum { WORD_SIZE = 64, NAMES_MAX = 64 };
 
@@ -108,7 +109,7 @@ static int take_name(void *to, const char *word)
     }
     if (found)
         return EXIT_DONE;
-    const char *nearest = crv_nearest_name(word, l->names, l->count);
+    const char *nearest = nearest_name(word, l->names, l->count);
     if (nearest)
         report_error(l->r, "%s: no \"%s\"; did you mean %s?", l->flag, word, nearest);
     else

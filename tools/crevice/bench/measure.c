@@ -77,8 +77,9 @@ static bool run_once(void *data)
 {
     running *w = data;
 
+    const crv_const_image estimate = crv_image_const(w->image);
     if (w->of->filter_only)
-        return crv_plan_filter(w->plan, w->gbuffer, &w->image, &w->image) == CRV_OK;
+        return crv_plan_filter(w->plan, w->gbuffer, &estimate, &w->image) == CRV_OK;
     return crv_plan_run(w->plan, w->gbuffer, &w->image) == CRV_OK
            && (!w->on_device || read_steps(w));
 }

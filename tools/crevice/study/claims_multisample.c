@@ -25,8 +25,9 @@ static int gather(composite *c)
     const study_view *v = &c->pixels;
     report *r = c->s->r;
     crv_gbuffer *gbuffer = NULL;
-    crv_image coarse = crv_image_packed(c->coarse, v->width, v->height, 1);
-    crv_image depth = crv_image_packed(c->depth, v->width, v->height, SAMPLES);
+    crv_const_image coarse = crv_const_image_packed(c->coarse, v->width, v->height, 1);
+    crv_const_image depth =
+        crv_const_image_packed(c->depth, v->width, v->height, SAMPLES);
     crv_image gathered = crv_image_packed(c->gathered, v->width, v->height, SAMPLES);
     int result = study_gbuffer(c->s, &c->pixels, STUDY_ONE_LAYER, &g);
 

@@ -37,10 +37,10 @@ static int fill_view(relief_view *v, const relief_map *map)
     int32_t width = g->desc.width, height = g->desc.height;
     report *r = v->s->r;
     crv_height_field field = {
-        .uv = crv_image_packed(g->uv, width, height, 2),
-        .tangent = crv_image_packed(g->tangent, width, height, 3),
-        .bitangent = crv_image_packed(g->bitangent, width, height, 3),
-        .height = crv_image_packed((float *)map->texels, RELIEF_TEXELS, RELIEF_TEXELS, 1),
+        .uv = crv_const_image_packed(g->uv, width, height, 2),
+        .tangent = crv_const_image_packed(g->tangent, width, height, 3),
+        .bitangent = crv_const_image_packed(g->bitangent, width, height, 3),
+        .height = crv_const_image_packed(map->texels, RELIEF_TEXELS, RELIEF_TEXELS, 1),
         .scale = (float)map->scale,
         .wrap = CRV_WRAP_REPEAT,
     };

@@ -53,8 +53,8 @@ static int upload(study *s, groove *g, const crv_camera *camera, float *planes)
 {
     int32_t width = g->desc.width, height = g->desc.height;
     float *normals = planes + (size_t)width * (size_t)height;
-    crv_image depth_image = crv_image_packed(planes, width, height, 1);
-    crv_image normal_image = crv_image_packed(normals, width, height, 3);
+    crv_const_image depth_image = crv_const_image_packed(planes, width, height, 1);
+    crv_const_image normal_image = crv_const_image_packed(normals, width, height, 3);
 
     fill(g, camera, planes, normals);
     return report_ok(s->r, crv_gbuffer_set_camera(g->gbuffer, camera), "groove")

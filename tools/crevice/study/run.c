@@ -167,6 +167,7 @@ int study_filter(study *s, study_view *v, const crv_options *options, const floa
 {
     size_t size = (size_t)v->width * (size_t)v->height * sizeof *output;
     crv_image image = crv_image_packed(output, v->width, v->height, 1);
+    crv_const_image unfiltered = crv_image_const(image);
     const study_gbuffer_entry *g;
     int result = study_cached_gbuffer(s, v, STUDY_ONE_LAYER, &g);
     crv_plan *plan;
@@ -178,27 +179,18 @@ int study_filter(study *s, study_view *v, const crv_options *options, const floa
         return EXIT_FAILED;
     if (input != output)
         memcpy(output, input, size);
-    if (!report_ok(s->r, crv_plan_filter(plan, g->uploaded, &image, &image), "filter"))
+    if (!report_ok(s->r, crv_plan_filter(plan, g->uploaded, &unfiltered, &image),
+                   "filter"))
         result = EXIT_FAILED;
     crv_plan_destroy(plan);
     return result;
 }
 
-/* Images are only read, whatever their type says. */
-static crv_image input_image(const float *data, int32_t width, int32_t height,
-                             int32_t channels)
-{
-    float *writable;
-
-    memcpy(&writable, &data, sizeof writable);
-    return crv_image_packed(writable, width, height, channels);
-}
-
 static bool fill(study *s, crv_gbuffer *g, const crv_camera *camera, const float *depth,
                  const float *normals, int32_t width, int32_t height)
 {
-    crv_image d = input_image(depth, width, height, 1);
-    crv_image n = input_image(normals, width, height, 3);
+    crv_const_image d = crv_const_image_packed(depth, width, height, 1);
+    crv_const_image n = crv_const_image_packed(normals, width, height, 3);
     crv_status status = crv_gbuffer_set_camera(g, camera);
 
     if (status == CRV_OK)

@@ -11,6 +11,7 @@
 
 #include "common/text.h"
 #include "common/view.h"
+#include "common/nearest.h"
 
 static const double degree = 3.14159265358979323846 / 180.0;
 
@@ -154,7 +155,7 @@ int views_check_name(const views_list *list, const char *name, report *r)
         if (strcmp(names[i], name) == 0)
             return EXIT_DONE;
     }
-    nearest = crv_nearest_name(name, names, list->entry_count);
+    nearest = nearest_name(name, names, list->entry_count);
     if (nearest != NULL) {
         report_error(r, "--main: no view \"%s\"; did you mean %s?", name, nearest);
         return EXIT_USAGE;
