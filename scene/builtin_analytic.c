@@ -8,8 +8,8 @@
 scene_view builtin_perspective(vec3 eye, vec3 target, double vfov_deg)
 {
     scene_view view = {.projection = CRV_PERSPECTIVE, .up = {0.0f, 1.0f, 0.0f}};
-    v3_store(eye, view.eye);
-    v3_store(target, view.target);
+    v3_store_double(eye, view.eye);
+    v3_store_double(target, view.target);
     view.vfov_rad = (float)(vfov_deg * SCENE_PI / 180.0);
     view.view_height =
         (float)(2.0 * v3_length(v3_sub(eye, target)) * tan(0.5 * (double)view.vfov_rad));
@@ -21,7 +21,7 @@ static scene_view orthographic(vec3 eye, vec3 up, double height)
     scene_view view = builtin_perspective(eye, v3(0, 0, 0), 20);
     view.projection = CRV_ORTHOGRAPHIC;
     view.view_height = (float)height;
-    v3_store(up, view.up);
+    v3_store_double(up, view.up);
     return view;
 }
 

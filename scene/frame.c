@@ -8,19 +8,32 @@
 #define ELEVATION_RAD (20.0 * SCENE_PI / 180.0)
 #define MARGIN        1.05
 
-static bool finite3(const float v[3])
+static bool finite3(const double v[3])
 {
     return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
 }
 
-bool scene_axes_of_view(const scene_view *view, scene_axes *out)
+static vec3 rounded(const double point[3], const double origin[3])
 {
+    return v3((double)(float)(point[0] - origin[0]),
+              (double)(float)(point[1] - origin[1]),
+              (double)(float)(point[2] - origin[2]));
+}
+
+void scene_local_point(const scene *s, const double world[3], float local[3])
+{
+    v3_store(rounded(world, s->mesh.origin), local);
+}
+
+bool scene_axes_of_view(const scene_view *view, const double origin[3], scene_axes *out)
+{
+    static const double zero[3] = {0.0, 0.0, 0.0};
     scene_axes a;
     if (!finite3(view->eye) || !finite3(view->target) || !finite3(view->up))
         return false;
-    a.eye = v3_from(view->eye);
-    a.back = v3_normalise(v3_sub(a.eye, v3_from(view->target)));
-    vec3 side = v3_cross(v3_normalise(v3_from(view->up)), a.back);
+    a.eye = rounded(view->eye, origin);
+    a.back = v3_normalise(v3_sub(a.eye, rounded(view->target, origin)));
+    vec3 side = v3_cross(v3_normalise(rounded(view->up, zero)), a.back);
     /* Zero where eye is target or up is zero, too. */
     if (!(v3_length(side) > 1e-6))
         return false;
@@ -87,17 +100,27 @@ static double centring_shift(const double side[8], const double toward[8],
     return 0.5 * (low + high);
 }
 
+/* A point from the scene's origin, rounded to floats there, in world space. */
+static void store_rounded(vec3 local, const scene *s, double world[3])
+{
+    float point[3];
+    v3_store(local, point);
+    for (int i = 0; i < 3; i++)
+        world[i] = s->mesh.origin[i] + (double)point[i];
+}
+
 /* The scene's own view from where this field of view and aspect show as much of it. */
 static scene_view fit_own_view(const scene *s, double half_height, double aspect)
 {
     scene_view view = s->view;
-    vec3 target = v3_from(view.target), offset = v3_sub(v3_from(view.eye), target);
+    vec3 target = v3_from_double(view.target);
+    vec3 offset = v3_sub(v3_from_double(view.eye), target);
     double widen = fmax(1.0, (double)s->view_aspect / aspect);
     double closer = tan(0.5 * (double)view.vfov_rad) / half_height;
     if (view.projection == CRV_ORTHOGRAPHIC)
         view.view_height = (float)((double)view.view_height * widen);
     else
-        v3_store(v3_along(target, offset, closer * widen), view.eye);
+        store_rounded(v3_along(target, offset, closer * widen), s, view.eye);
     view.vfov_rad = (float)(2.0 * atan(half_height));
     return view;
 }
@@ -123,8 +146,8 @@ void scene_frame(const scene *s, float vfov_rad, float aspect, scene_view *out)
         fitting_distance(box.side[1], box.toward, half_height / MARGIN));
     centre = v3_along(centre, right, centring_shift(box.side[0], box.toward, distance));
     centre = v3_along(centre, axes.up, centring_shift(box.side[1], box.toward, distance));
-    v3_store(v3_along(centre, to_eye, distance), view.eye);
-    v3_store(centre, view.target);
+    store_rounded(v3_along(centre, to_eye, distance), s, view.eye);
+    store_rounded(centre, s, view.target);
     view.vfov_rad = vfov_rad;
     view.view_height = (float)(2.0 * distance * half_height);
     *out = view;
@@ -139,7 +162,8 @@ static double rounded_to_two_digits(double value)
 float scene_suggest_radius(const scene *s, const scene_view *view)
 {
     vec3 size = v3_sub(v3_from(s->upper), v3_from(s->lower));
-    double distance = v3_length(v3_sub(v3_from(view->eye), v3_from(view->target)));
+    double distance =
+        v3_length(v3_sub(v3_from_double(view->eye), v3_from_double(view->target)));
     double height = view->projection == CRV_ORTHOGRAPHIC
                         ? (double)view->view_height
                         : 2.0 * distance * tan(0.5 * (double)view->vfov_rad);

@@ -32,8 +32,8 @@ static int check_sizes(const scene_gbuffer_request *r, const crv_logger *log)
 }
 
 /* The camera of the whole buffer, guard band included. */
-static int make_camera(const scene_gbuffer_request *r, scene_axes *axes, crv_camera *out,
-                       const crv_logger *log)
+static int make_camera(const scene_gbuffer_request *r, const double origin[3],
+                       scene_axes *axes, crv_camera *out, const crv_logger *log)
 {
     const scene_view *v = &r->view;
     crv_camera camera;
@@ -52,7 +52,7 @@ static int make_camera(const scene_gbuffer_request *r, scene_axes *axes, crv_cam
         || !isfinite(camera.fy_px))
         return refuse(log, "is too narrow or too wide for a camera; change its height or "
                            "field of view");
-    if (!scene_axes_of_view(v, axes))
+    if (!scene_axes_of_view(v, origin, axes))
         return refuse(log, "cannot look from eye to target; give an eye that is not the "
                            "target, and an up that is not along the view");
     camera = crv_camera_crop(&camera, -r->guard_px, -r->guard_px);
@@ -156,8 +156,12 @@ int scene_render_gbuffer(const scene *s, const scene_gbuffer_request *request,
 {
     scene_gbuffer g = {.view = request->view};
     scene_axes axes;
-    if (check_sizes(request, log) || make_camera(request, &axes, &g.camera, log))
+    if (check_sizes(request, log)
+        || make_camera(request, s->mesh.origin, &axes, &g.camera, log))
         return -1;
+    memcpy(g.origin, s->mesh.origin, sizeof g.origin);
+    /* What was rounded is told as it was used. */
+    v3_store_double(v3_add(axes.eye, v3_from_double(g.origin)), g.view.eye);
     set_desc(request, &g.desc);
     if (allocate(request, &g)) {
         scene_gbuffer_free(&g);

@@ -9,6 +9,8 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include "import_memory.h"
+#include "import_shift.h"
 #include "internal.h"
 #include "normals.h"
 
@@ -213,6 +215,27 @@ static void add_node(loader *l, const struct aiNode *node, const transform *pare
             add_node(l, node->mChildren[i], &t, depth + 1);
 }
 
+/* Grows the bounds by all vertices that nodes show, world space. */
+static void bound_node(const loader *l, const struct aiNode *node,
+                       const transform *parent, int depth, vec3 *lower, vec3 *upper)
+{
+    const transform t = transform_of_node(node, parent);
+    for (unsigned i = 0; node->mMeshes && i < node->mNumMeshes; i++) {
+        const struct aiMesh *part = node->mMeshes[i] < l->file->mNumMeshes
+                                        ? l->file->mMeshes[node->mMeshes[i]]
+                                        : NULL;
+        for (size_t v = 0; part && part->mVertices && v < part->mNumVertices; v++) {
+            const struct aiVector3D *p = &part->mVertices[v];
+            v3_bound(v3_add(multiply(t.row, v3((double)p->x, (double)p->y, (double)p->z)),
+                            t.offset),
+                     lower, upper);
+        }
+    }
+    for (unsigned i = 0; node->mChildren && i < node->mNumChildren; i++)
+        if (node->mChildren[i] && depth < MAX_NODE_DEPTH)
+            bound_node(l, node->mChildren[i], &t, depth + 1, lower, upper);
+}
+
 /* Faces without corners, or with corners that are not there, are what importers make of
  * damaged files. assimp's own triangulation would abort or read beyond the vertices. */
 static bool is_sound(const struct aiMesh *part, bool *has_polygons)
@@ -231,10 +254,15 @@ static bool is_sound(const struct aiMesh *part, bool *has_polygons)
     return true;
 }
 
-static const struct aiScene *read_file(const char *path, const crv_logger *log)
+static const struct aiScene *read_file(const char *path, mesh *m, const crv_logger *log)
 {
     bool sound = true, has_polygons = false;
-    const struct aiScene *file = aiImportFile(path, 0);
+    import_memory moved = {.path = path};
+    char *data = import_shift(path, m, &moved.size);
+    moved.data = data;
+    import_memory_open(&moved);
+    const struct aiScene *file =
+        data ? aiImportFileEx(path, 0, &moved.io) : aiImportFile(path, 0);
     for (unsigned i = 0; file && sound && i < file->mNumMeshes; i++)
         sound = is_sound(file->mMeshes[i], &has_polygons);
     if (!sound) {
@@ -242,6 +270,7 @@ static const struct aiScene *read_file(const char *path, const crv_logger *log)
                   "is truncated or damaged: faces lack their vertices; copy or export it "
                   "again");
         aiReleaseImport(file);
+        free(data);
         return NULL;
     }
     if (has_polygons)
@@ -252,17 +281,25 @@ static const struct aiScene *read_file(const char *path, const crv_logger *log)
             "cannot be read as a mesh (%.300s); give a complete glTF, OBJ, PLY, STL or "
             "FBX file",
             aiGetErrorString());
+    free(data);
     return file;
 }
 
 int import_assimp(const char *path, import *out, const crv_logger *log)
 {
-    static const transform identity = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}};
-    loader l = {.path = path, .log = log, .file = read_file(path, log)};
+    transform root = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}};
+    loader l = {.path = path, .log = log};
+    l.file = read_file(path, &l.mesh, log);
     if (!l.file)
         return -1;
-    if (l.file->mRootNode)
-        add_node(&l, l.file->mRootNode, &identity, 0);
+    root.offset = v3_from_double(l.mesh.origin);
+    if (l.file->mRootNode) {
+        vec3 lower = v3(INFINITY, INFINITY, INFINITY), upper = v3_scale(lower, -1.0);
+        bound_node(&l, l.file->mRootNode, &root, 0, &lower, &upper);
+        if (!(v3_length(root.offset) > 0.0))
+            mesh_choose_origin(&l.mesh, lower, upper);
+        add_node(&l, l.file->mRootNode, &root, 0);
+    }
     aiReleaseImport(l.file);
     out->mesh = l.mesh;
     return 0;

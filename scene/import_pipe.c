@@ -22,6 +22,7 @@ typedef struct record {
 
 typedef struct result_head {
     uint64_t vertex_count, triangle_count, colour_count, dropped_triangles;
+    double origin[3];
 } result_head;
 
 void import_free(import *found)
@@ -93,10 +94,13 @@ bool import_pipe_send(int fd, const import *found)
 {
     const mesh *m = &found->mesh;
     const record head = {.kind = RECORD_RESULT, .size = sizeof(result_head)};
-    const result_head counts = {.vertex_count = m->vertex_count,
-                                .triangle_count = m->triangle_count,
-                                .colour_count = m->colour_count,
-                                .dropped_triangles = m->dropped_triangles};
+    const result_head counts = {
+        .vertex_count = m->vertex_count,
+        .triangle_count = m->triangle_count,
+        .colour_count = m->colour_count,
+        .dropped_triangles = m->dropped_triangles,
+        .origin = {m->origin[0], m->origin[1], m->origin[2]},
+    };
 import copy = * found;
     part parts[PART_COUNT];
     list_parts(&copy, &counts, parts);
@@ -155,6 +159,8 @@ static import_end receive_message(int fd, double deadline, const record *head,
 /* Whether triangles and materials are what mesh_add_triangle() makes of them. */
 static bool is_sound(const mesh *m)
 {
+    if (!mesh_usable_position(v3_from_double(m->origin)))
+        return false;
     for (size_t t = 0; t < m->triangle_count; t++) {
         if (m->materials[t] >= m->colour_count)
             return false;
@@ -195,6 +201,7 @@ static import_end receive_result(int fd, double deadline, const record *head, im
         (size_t)counts.triangle_count;
     out->mesh.colour_count = out->mesh.colour_capacity = (size_t)counts.colour_count;
     out->mesh.dropped_triangles = (size_t)counts.dropped_triangles;
+    memcpy(out->mesh.origin, counts.origin, sizeof counts.origin);
     if (end == IMPORT_DONE && !is_sound(&out->mesh))
         end = IMPORT_DAMAGED;
     return end;

@@ -12,7 +12,7 @@
 
 struct scene {
     mesh mesh;
-    float lower[3], upper[3];
+    float lower[3], upper[3]; /* from the mesh's origin, as all positions */
     RTCDevice device;
     RTCScene rtc;
     bool has_view; /* a view that it was made for, at this field of view and aspect */
@@ -23,13 +23,14 @@ struct scene {
 /* Takes the mesh (also on failure) and prepares it for ray casting. */
 int scene_from_mesh(mesh *m, const char *name, scene **out, const crv_logger *log);
 
-/* Where the camera is and how it is turned: rows of the rotation from world to view. */
+/* Where the camera is, from the scene's origin, and how it is turned: rows of the
+ * rotation from world to view. */
 typedef struct scene_axes {
     vec3 eye, right, up, back;
 } scene_axes;
 
 /* False where the view's numbers make no camera. */
-bool scene_axes_of_view(const scene_view *view, scene_axes *out);
+bool scene_axes_of_view(const scene_view *view, const double origin[3], scene_axes *out);
 
 /* Logs "NAME: text" as one line: control characters of foreign text become spaces. */
 void scene_log(const crv_logger *log, crv_log_level level, const char *name,

@@ -96,7 +96,26 @@ void mesh_set_colour(mesh *m, double r, double g, double b)
     m->material = (uint32_t)m->colour_count++;
 }
 
-uint32_t mesh_add_vertex(mesh *m, vec3 position, vec3 normal)
+/* Beyond this many times its size from zero a mesh loses to rounding what rays notice:
+ * floats there are 1e-6 of the size apart. */
+#define FAR 16.0
+
+void mesh_choose_origin(mesh *m, vec3 lower, vec3 upper)
+{
+    const vec3 size = v3_sub(upper, lower), centre = v3_scale(v3_add(lower, upper), 0.5);
+    const double extent = fmax(size.x, fmax(size.y, size.z));
+    const double farthest = fmax(fabs(centre.x), fmax(fabs(centre.y), fabs(centre.z)));
+    if (!(extent > 0.0) || !(farthest > FAR * extent) || !isfinite(farthest))
+        return;
+    /* A multiple of a power of two has few digits, which the cameras' numbers keep. */
+    const double unit = exp2(floor(log2(extent)));
+    m->origin[0] = unit * round(centre.x / unit);
+    m->origin[1] = unit * round(centre.y / unit);
+    m->origin[2] = unit * round(centre.z / unit);
+}
+
+/* The position is from the mesh's origin. */
+static uint32_t add_local_vertex(mesh *m, vec3 position, vec3 normal)
 {
     size_t index = m->vertex_count;
     if (m->failed)
@@ -109,6 +128,12 @@ uint32_t mesh_add_vertex(mesh *m, vec3 position, vec3 normal)
     m->uvs[2 * index] = m->uvs[2 * index + 1] = NAN;
     m->vertex_count++;
     return (uint32_t)index;
+}
+
+uint32_t mesh_add_vertex(mesh *m, vec3 position, vec3 normal)
+{
+    const vec3 origin = v3(m->origin[0], m->origin[1], m->origin[2]);
+    return add_local_vertex(m, v3_sub(position, origin), normal);
 }
 
 void mesh_set_uv(mesh *m, uint32_t vertex, double u, double v)
@@ -140,7 +165,7 @@ static uint32_t with_usable_normal(mesh *m, uint32_t vertex, vec3 face_normal)
     double length = v3_length(mesh_normal(m, vertex));
     if (length > 0.5 && length < 2.0)
         return vertex;
-    const uint32_t copy = mesh_add_vertex(m, mesh_position(m, vertex), face_normal);
+    const uint32_t copy = add_local_vertex(m, mesh_position(m, vertex), face_normal);
     if (!m->failed)
         memcpy(m->uvs + 2 * (size_t)copy, m->uvs + 2 * (size_t)vertex,
                2 * sizeof *m->uvs);

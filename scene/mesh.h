@@ -17,6 +17,8 @@
 #define MESH_MAX_COORDINATE 1e12
 
 typedef struct mesh {
+    double origin[3]; /* world coordinates of the positions' zero; set before the first
+                         vertex: floats cannot hold a bolt at map coordinates */
     float *positions; /* 3 a vertex, and one float more: Embree loads 16 bytes */
     float *normals;   /* 3 a vertex, unit length */
     float *uvs;       /* 2 a vertex, v down over the map; NaN: none */
@@ -39,7 +41,11 @@ void mesh_reserve(mesh *m, size_t vertices, size_t triangles);
 /* Further triangles get this linear albedo, clamped to [0, 1]. */
 void mesh_set_colour(mesh *m, double r, double g, double b);
 
-/* Returns the vertex's index. */
+/* Chooses the origin of an empty mesh for the bounds of what is to come, world space:
+ * zero unless the whole is far from it for its size. */
+void mesh_choose_origin(mesh *m, vec3 lower, vec3 upper);
+
+/* The position is in world space. Returns the vertex's index. */
 uint32_t mesh_add_vertex(mesh *m, vec3 position, vec3 normal);
 
 /* Gives a vertex its texture coordinates. */
@@ -56,6 +62,7 @@ bool mesh_usable_position(vec3 p);
  * below the rounding of its coordinates. */
 vec3 mesh_face_normal(vec3 a, vec3 b, vec3 c);
 
+/* From the mesh's origin. */
 static inline vec3 mesh_position(const mesh *m, uint32_t vertex)
 {
     return v3_from(m->positions + 3 * (size_t)vertex);

@@ -74,7 +74,7 @@ int reference_create(const scene *s, const scene_gbuffer *g, const reference_opt
     r->width = d->width - d->guard_left - d->guard_right;
     r->height = d->height - d->guard_top - d->guard_bottom;
     r->offset = OFFSET_SHARE * largest_length(s);
-    if (!scene_axes_of_view(&g->view, &r->axes) || !allocate(r)) {
+    if (!scene_axes_of_view(&g->view, g->origin, &r->axes) || !allocate(r)) {
         reference_free(r);
         return refuse(log, "out of memory; make the picture smaller");
     }

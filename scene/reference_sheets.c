@@ -270,7 +270,7 @@ int reference_make_sheets(const scene_gbuffer *g, double radius, double thicknes
                .ortho = g->camera.projection == CRV_ORTHOGRAPHIC};
     s.vertex = malloc(pixels * sizeof *s.vertex);
     s.joins = malloc(pixels);
-    m.failed = !s.vertex || !s.joins || !scene_axes_of_view(&g->view, &axes);
+    m.failed = !s.vertex || !s.joins || !scene_axes_of_view(&g->view, g->origin, &axes);
     for (int32_t layer = 0; layer < g->desc.layers && !m.failed; layer++) {
         s.depth = g->depth[layer];
         s.next = layer + 1 < g->desc.layers ? g->depth[layer + 1] : NULL;

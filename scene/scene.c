@@ -142,8 +142,10 @@ int64_t scene_triangle_count(const scene *s)
     return (int64_t)s->mesh.triangle_count;
 }
 
-void scene_bounds(const scene *s, float lower[3], float upper[3])
+void scene_bounds(const scene *s, double lower[3], double upper[3])
 {
-    memcpy(lower, s->lower, sizeof s->lower);
-    memcpy(upper, s->upper, sizeof s->upper);
+    for (int axis = 0; axis < 3; axis++) {
+        lower[axis] = s->mesh.origin[axis] + (double)s->lower[axis];
+        upper[axis] = s->mesh.origin[axis] + (double)s->upper[axis];
+    }
 }

@@ -63,14 +63,19 @@ void scene_free(scene *s);
 
 int64_t scene_triangle_count(const scene *s);
 
-/* The axis-aligned bounds of all triangles. */
-void scene_bounds(const scene *s, float lower[3], float upper[3]);
+/* The axis-aligned bounds of all triangles, world space. */
+void scene_bounds(const scene *s, double lower[3], double upper[3]);
+
+/* A point of world space as the scene keeps it: rounded to floats, from the scene's own
+ * origin, which is near its centre where that is far from zero. Views whose numbers are
+ * the same by this are the same view. */
+void scene_local_point(const scene *s, const double world[3], float local[3]);
 
 typedef struct scene_view {
     crv_projection projection;
-    float eye[3], target[3], up[3];
-    float vfov_rad;    /* perspective: full vertical field of view */
-    float view_height; /* orthographic: scene units */
+    double eye[3], target[3], up[3]; /* world space */
+    float vfov_rad;                  /* perspective: full vertical field of view */
+    float view_height;               /* orthographic: scene units */
 } scene_view;
 
 /* A view that shows the whole scene from a little above (built-in scenes: the view that
@@ -109,6 +114,7 @@ typedef struct scene_gbuffer {
     crv_gbuffer_desc desc;
     crv_camera camera; /* world_to_view set */
     scene_view view;
+    double origin[3];             /* the scene's own; see scene_local_point() */
     float *depth[CRV_MAX_LAYERS]; /* planar; background INFINITY; owned */
     float *normals; /* width * height * 3, view space; background 0; owned */
     float *albedo;  /* width * height * 3, linear; background 0; owned */

@@ -116,7 +116,7 @@ static vec3 unit_or(const float given[3], vec3 otherwise)
 
 static void prepare(lighting *l, const scene_lighting *given)
 {
-    vec3 view_up = v3_normalise(v3_from(l->gbuffer->view.up));
+    vec3 view_up = v3_normalise(v3_from_double(l->gbuffer->view.up));
     l->light = given ? *given : scene_lighting_default();
     turn_sky(unit_or(l->light.sky_up, view_up), l->sky);
     if (l->light.sky == SCENE_SKY_GRADIENT)
@@ -135,7 +135,7 @@ int scene_shade(const scene *s, const scene_gbuffer *g, const scene_lighting *li
     lighting l = {.scene = s, .gbuffer = g};
     if (!covers(rgb, &g->desc, 3)
         || (accessibility && !covers(accessibility, &g->desc, 1))
-        || !scene_axes_of_view(&g->view, &l.axes)) {
+        || !scene_axes_of_view(&g->view, g->origin, &l.axes)) {
         scene_log(log, CRV_LOG_ERROR, "picture",
                   "does not fit the G-buffer; give it the size inside the guard band");
         return -1;

@@ -23,6 +23,18 @@ static inline vec3 v3_from(const float p[3])
     return (vec3){(double)p[0], (double)p[1], (double)p[2]};
 }
 
+static inline vec3 v3_from_double(const double p[3])
+{
+    return (vec3){p[0], p[1], p[2]};
+}
+
+static inline void v3_store_double(vec3 v, double out[3])
+{
+    out[0] = v.x;
+    out[1] = v.y;
+    out[2] = v.z;
+}
+
 static inline void v3_store(vec3 v, float out[3])
 {
     out[0] = (float)v.x;
@@ -59,6 +71,15 @@ static inline double v3_dot(vec3 a, vec3 b)
 static inline vec3 v3_cross(vec3 a, vec3 b)
 {
     return (vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/* Grows bounds by a point; one that is not finite is passed over. */
+static inline void v3_bound(vec3 p, vec3 *lower, vec3 *upper)
+{
+    if (!isfinite(p.x + p.y + p.z))
+        return;
+    *lower = v3(fmin(lower->x, p.x), fmin(lower->y, p.y), fmin(lower->z, p.z));
+    *upper = v3(fmax(upper->x, p.x), fmax(upper->y, p.y), fmax(upper->z, p.z));
 }
 
 static inline double v3_length(vec3 a)

@@ -141,7 +141,7 @@ static void test_foreign(void **state)
         o->weighting = change == 7 ? CRV_WEIGHTING_UNIFORM : o->weighting;
         o->falloff = change == 8 ? CRV_FALLOFF_SQRT : o->falloff;
         o->definition = change == 9 ? REFERENCE_TANGENT_SPHERE : o->definition;
-        other.g.view.eye[1] += change == 10 ? 0.25f : 0.0f;
+        other.g.view.eye[1] += change == 10 ? 0.25 : 0.0;
         assert_refused(&other, "another scene, view or setting");
     }
     other = f;

@@ -17,7 +17,7 @@ static seen_box see_box(const scene *s, const scene_view *view, double aspect)
     seen_box box = {{1e9, 1e9}, {-1e9, -1e9}};
     double half = tan(0.5 * (double)view->vfov_rad);
     scene_gbuffer g = {.view = *view};
-    float bound[2][3];
+    double bound[2][3];
     double axis[3][3];
     for (int k = 0; k < 3; k++) {
         const float unit[3] = {k == 0, k == 1, k == 2};
@@ -27,7 +27,7 @@ static seen_box see_box(const scene *s, const scene_view *view, double aspect)
     for (int corner = 0; corner < 8; corner++) {
         double p[3], seen[2];
         for (int i = 0; i < 3; i++)
-            p[i] = (double)bound[corner >> i & 1][i] - (double)view->eye[i];
+            p[i] = bound[corner >> i & 1][i] - view->eye[i];
         assert_true(dot(p, axis[2]) < 0.0);
         seen[0] = dot(p, axis[0]) / (-dot(p, axis[2]) * half * aspect);
         seen[1] = dot(p, axis[1]) / (-dot(p, axis[2]) * half);
@@ -91,8 +91,8 @@ static void test_builtin_view_adapts(void **state)
     scene_frame(s, 1.2f, 16.0f / 9.0f, &wide);
     for (int i = 0; i < 3; i++) {
         assert_true(narrow.target[i] == wide.target[i]);
-        n[i] = (double)narrow.eye[i] - (double)narrow.target[i];
-        w[i] = (double)wide.eye[i] - (double)wide.target[i];
+        n[i] = narrow.eye[i] - narrow.target[i];
+        w[i] = wide.eye[i] - wide.target[i];
     }
     /* As much is seen at the target: distance times the tangent stays. */
     assert_true(fabs(sqrt(dot(n, n)) * tan(0.2) - sqrt(dot(w, w)) * tan(0.6)) < 1e-4);

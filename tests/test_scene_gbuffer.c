@@ -157,10 +157,10 @@ static void test_refuses_views(void **state)
     refuse(s, &bad);
     bad = good;
     for (int i = 0; i < 3; i++)
-        bad.view.up[i] = 2.0f * (bad.view.eye[i] - bad.view.target[i]);
+        bad.view.up[i] = 2.0 * (bad.view.eye[i] - bad.view.target[i]);
     refuse(s, &bad);
     bad = good;
-    bad.view.eye[1] = NAN;
+    bad.view.eye[1] = (double)NAN;
     refuse(s, &bad);
     scene_free(s);
 }

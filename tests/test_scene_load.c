@@ -14,11 +14,11 @@ static const char *const cube_obj =
 
 static void assert_bounds(const scene *s, const double lower[3], const double upper[3])
 {
-    float found[2][3];
+    double found[2][3];
     scene_bounds(s, found[0], found[1]);
     for (int i = 0; i < 3; i++) {
-        assert_true(fabs((double)found[0][i] - lower[i]) < 1e-6);
-        assert_true(fabs((double)found[1][i] - upper[i]) < 1e-6);
+        assert_true(fabs(found[0][i] - lower[i]) < 1e-6);
+        assert_true(fabs(found[1][i] - upper[i]) < 1e-6);
     }
 }
 

@@ -96,8 +96,8 @@ scene_view look(crv_projection projection, const double eye[3], const double tar
                        .vfov_rad = (float)(45.0 * PI / 180.0),
                        .view_height = (float)view_height};
     for (int i = 0; i < 3; i++) {
-        view.eye[i] = (float)eye[i];
-        view.target[i] = (float)target[i];
+        view.eye[i] = (double)(float)eye[i];
+        view.target[i] = (double)(float)target[i];
     }
     return view;
 }

@@ -36,8 +36,7 @@ radius=$(sed -n 's/^radius: \(--radius [^,]*\),.*/\1/p' stderr.txt)
 # shellcheck disable=SC2086 # words are meant to be split
 good render builtin:courtyard $small -o again.exr $camera $radius
 good compare --json told.exr again.exr
-# Six digits of the camera: a few silhouettes may move by a pixel.
-at_most "$(number mae)" 0.002 "difference of the told camera"
+at_most "$(number max_error)" 0 "difference of the told camera"
 
 # Two perpendicular planes: open far from the edge, about half closed in it.
 good render builtin:corner $small -o corner.exr --radius 0.5

@@ -34,7 +34,7 @@ typedef struct arg_number {
 
 typedef struct arg_vector {
     bool given;
-    float value[3];
+    double value[3];
 } arg_vector;
 
 typedef struct arg_size {

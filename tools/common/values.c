@@ -61,7 +61,7 @@ static bool set_vector(const char *text, arg_vector *out)
         /* Squares of coordinates must stay finite in single precision. */
         if (!args_number(part, &value) || !(fabs(value) < 1e18))
             return false;
-        out->value[i] = (float)value;
+        out->value[i] = value;
         if (comma)
             part = comma + 1;
     }

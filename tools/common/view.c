@@ -4,6 +4,8 @@
 #include "nearest.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const double degree = 3.14159265358979323846 / 180.0;
@@ -110,7 +112,7 @@ static const char *builtin_name(const char *model)
 int view_check(const view_settings *s, report *r)
 {
     int64_t guard = guard_px(s);
-    const float *up = s->up.value;
+    const double *up = s->up.value;
 
     if (s->vfov_deg.given && s->ortho.given) {
         report_error(r, "--ortho: contradicts --vfov; give one of them");
@@ -125,7 +127,7 @@ int view_check(const view_settings *s, report *r)
             (int32_t)guard, CRV_MAX_SIZE);
         return EXIT_USAGE;
     }
-    if (s->up.given && !(fabsf(up[0]) + fabsf(up[1]) + fabsf(up[2]) > 0.0f)) {
+    if (s->up.given && !(fabs(up[0]) + fabs(up[1]) + fabs(up[2]) > 0.0)) {
         report_error(r, "--up: has no length; give a direction such as 0,1,0");
         return EXIT_USAGE;
     }
@@ -150,7 +152,7 @@ int view_load(const view_settings *s, scene **out, report *r)
     return EXIT_DONE;
 }
 
-static void copy3(float to[3], const float from[3])
+static void copy3(double to[3], const double from[3])
 {
     memcpy(to, from, 3 * sizeof *to);
 }
@@ -185,21 +187,21 @@ static int choose_view(const view_settings *s, const scene *model, scene_view *v
                        report *r)
 {
     const float vfov = (float)((s->vfov_deg.given ? s->vfov_deg.value : 45.0) * degree);
-    float lower[3], upper[3];
+    double lower[3], upper[3];
 
     scene_frame(model, vfov, (float)s->size.width / (float)s->size.height, v);
     scene_bounds(model, lower, upper);
     for (int i = 0; i < 3; i++) {
-        const float offset = v->eye[i] - v->target[i];
+        const double offset = v->eye[i] - v->target[i];
         if (s->target.given)
             v->target[i] = s->target.value[i];
         else if (s->eye.given)
-            v->target[i] = 0.5f * (lower[i] + upper[i]);
+            v->target[i] = 0.5 * (lower[i] + upper[i]);
         v->eye[i] = s->eye.given ? s->eye.value[i]
                                  : (s->target.given ? v->target[i] + offset : v->eye[i]);
     }
     if (s->eye.given || s->target.given)
-        copy3(v->up, (const float[3]){0.0f, 1.0f, 0.0f});
+        copy3(v->up, (const double[3]){0.0, 1.0, 0.0});
     if (s->up.given)
         copy3(v->up, s->up.value);
     if (s->vfov_deg.given || s->ortho.given)
@@ -218,7 +220,7 @@ static int choose_view(const view_settings *s, const scene *model, scene_view *v
         report_error(r, "--up: lies along the view; give another direction");
         return EXIT_USAGE;
     }
-    copy3(v->up, (const float[3]){0.0f, 0.0f, -1.0f});
+    copy3(v->up, (const double[3]){0.0, 0.0, -1.0});
     return EXIT_DONE;
 }
 
@@ -234,18 +236,55 @@ static bool shows_something(const scene_gbuffer *g)
     return false;
 }
 
-static void tell_view(const scene_view *v, report *r)
+/* "X,Y,Z" with as few digits as give the same point when they are read again: to the
+ * scene, or as a direction where model is NULL. */
+static const char *exact_vector(const scene *model, const double p[3], char out[96])
 {
-    bool ortho = v->projection == CRV_ORTHOGRAPHIC;
+    for (int digits = 6; digits <= 17; digits++) {
+        float was[3], is[3];
+        double again[3];
+        char *rest = out;
 
-    report_info(r,
-                "camera: --eye %.6g,%.6g,%.6g --target %.6g,%.6g,%.6g --up "
-                "%.6g,%.6g,%.6g %s %.6g",
-                (double)v->eye[0], (double)v->eye[1], (double)v->eye[2],
-                (double)v->target[0], (double)v->target[1], (double)v->target[2],
-                (double)v->up[0], (double)v->up[1], (double)v->up[2],
-                ortho ? "--ortho" : "--vfov",
-                ortho ? (double)v->view_height : (double)v->vfov_rad / degree);
+        snprintf(out, 96, "%.*g,%.*g,%.*g", digits, p[0], digits, p[1], digits, p[2]);
+        for (int i = 0; i < 3; i++) {
+            again[i] = strtod(rest, &rest);
+            rest += *rest == ',';
+            was[i] = (float)p[i];
+            is[i] = (float)again[i];
+        }
+        if (model) {
+            scene_local_point(model, p, was);
+            scene_local_point(model, again, is);
+        }
+        if (memcmp(was, is, sizeof was) == 0)
+            break;
+    }
+    return out;
+}
+
+/* The same for a number that the tool keeps as a float, times `unit`. */
+static const char *exact_number(float value, double unit, char out[32])
+{
+    for (int digits = 6; digits <= 17; digits++) {
+        snprintf(out, 32, "%.*g", digits, (double)value / unit);
+        const float again = (float)(strtod(out, NULL) * unit);
+        if (memcmp(&again, &value, sizeof again) == 0)
+            break;
+    }
+    return out;
+}
+
+/* The camera as flags that give the same picture, bit by bit. */
+static void tell_view(const scene *model, const scene_view *v, report *r)
+{
+    const bool ortho = v->projection == CRV_ORTHOGRAPHIC;
+    char eye[96], target[96], up[96], number[32];
+
+    report_info(r, "camera: --eye %s --target %s --up %s %s %s",
+                exact_vector(model, v->eye, eye), exact_vector(model, v->target, target),
+                exact_vector(NULL, v->up, up), ortho ? "--ortho" : "--vfov",
+                ortho ? exact_number(v->view_height, 1.0, number)
+                      : exact_number(v->vfov_rad, degree, number));
 }
 
 int view_render(const view_settings *s, const scene *model, bool texture_frames,
@@ -267,7 +306,7 @@ int view_render(const view_settings *s, const scene *model, bool texture_frames,
 
     if (result != EXIT_DONE)
         return result;
-    tell_view(&request.view, r);
+    tell_view(model, &request.view, r);
     if (scene_render_gbuffer(model, &request, out, &r->logger) != 0)
         return EXIT_FAILED;
     if (!shows_something(out))

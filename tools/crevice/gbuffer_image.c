@@ -22,7 +22,7 @@ void gbuffer_describe_camera(const scene_gbuffer *g, io_image *image)
             if (row < 3)
                 view[k] = (double)rotation[3 * k + row];
             for (int i = 0; i < 3 && row == 3; i++)
-                view[k] -= (double)rotation[3 * k + i] * (double)g->view.eye[i];
+                view[k] -= (double)rotation[3 * k + i] * g->view.eye[i];
         }
         /* Depth d = -z divides x and y under perspective, and 1 does otherwise. The third
          * column has no meaning there; it only keeps the matrix invertible. */

@@ -166,12 +166,11 @@ static int set_sky(const char *text, lighting *l, report *r)
 /* The zenith, and the key light turned as scene.h has it for the sky: the shortest turn
  * that takes +Y to up. With p = Y x up, v turns to v + p x v + p x (p x v) / (1 + up.y).
  */
-static void turn(scene_lighting *l, const float up[3])
+static void turn(scene_lighting *l, const double up[3])
 {
-    double length = sqrt((double)up[0] * (double)up[0] + (double)up[1] * (double)up[1]
-                         + (double)up[2] * (double)up[2]);
-    double p[3] = {(double)up[2] / length, 0.0, -(double)up[0] / length};
-    double cosine = (double)up[1] / length;
+    double length = sqrt(up[0] * up[0] + up[1] * up[1] + up[2] * up[2]);
+    double p[3] = {up[2] / length, 0.0, -up[0] / length};
+    double cosine = up[1] / length;
     double v[3], once[3], twice[3];
 
     for (int i = 0; i < 3; i++)
@@ -191,7 +190,7 @@ static void turn(scene_lighting *l, const float up[3])
 
 int lighting_check(const render_settings *s, report *r)
 {
-    const float *zenith = s->zenith.value;
+    const double *zenith = s->zenith.value;
     const char *given = s->sky            ? "--sky"
                         : s->key_light    ? "--key-light"
                         : s->zenith.given ? "--zenith"
@@ -201,8 +200,7 @@ int lighting_check(const render_settings *s, report *r)
         report_error(r, "%s: lights no picture; add --lit FILE or --shade lit", given);
         return EXIT_USAGE;
     }
-    if (s->zenith.given
-        && !(fabsf(zenith[0]) + fabsf(zenith[1]) + fabsf(zenith[2]) > 0.0f)) {
+    if (s->zenith.given && !(fabs(zenith[0]) + fabs(zenith[1]) + fabs(zenith[2]) > 0.0)) {
         report_error(r, "--zenith: has no length; give a direction such as 0,1,0");
         return EXIT_USAGE;
     }
@@ -211,7 +209,7 @@ int lighting_check(const render_settings *s, report *r)
 
 int lighting_load(const render_settings *s, lighting *out, report *r)
 {
-    static const float usual[3] = {0.0f, 1.0f, 0.0f};
+    static const double usual[3] = {0.0, 1.0, 0.0};
     int result = EXIT_DONE;
 
     *out = (lighting){.scene = scene_lighting_default()};

@@ -66,7 +66,7 @@ static surface carry(const stability_frame *former, const stability_frame *latte
     unproject(latter, x, y, view);
     to_world(&latter->camera, view, world);
     for (int k = 0; k < 3; k++) {
-        world[k] += (double)latter->eye[k] - (double)former->eye[k];
+        world[k] += latter->eye[k] - former->eye[k];
         normal[k] = (double)latter->normals[3 * i + (size_t)k];
     }
     to_view(&former->camera, world, s.at);

@@ -14,7 +14,7 @@
 /* Packed planes of width * height. Not owned. */
 typedef struct stability_frame {
     crv_camera camera; /* of these pixels; world_to_view set */
-    float eye[3];      /* world space */
+    double eye[3];     /* world space */
     int32_t width, height;
     const float *depth;   /* planar; background is not finite */
     const float *normals; /* view space, 3 for each pixel */

@@ -21,8 +21,8 @@ static scene_view moved(const scene_view *view, double distance)
     scene_view out = *view;
 
     for (int i = 0; i < 3; i++) {
-        ahead[i] = (double)view->target[i] - (double)view->eye[i];
-        up[i] = (double)view->up[i];
+        ahead[i] = view->target[i] - (double)view->eye[i];
+        up[i] = view->up[i];
     }
     cross_of(ahead, up, right);
     cross_of(right, ahead, above);
@@ -34,8 +34,8 @@ static scene_view moved(const scene_view *view, double distance)
         double by = distance
                     * (right[i] / sqrt(length) + 0.5 * above[i] / sqrt(length_above))
                     / sqrt(1.25);
-        out.eye[i] = (float)((double)view->eye[i] + by);
-        out.target[i] = (float)((double)view->target[i] + by);
+        out.eye[i] = view->eye[i] + by;
+        out.target[i] = (float)(view->target[i] + by);
     }
     return out;
 }

@@ -21,12 +21,12 @@ enum { VIEWS_MAX = 64, NAME_MAX_LENGTH = 40 };
 static const struct {
     const char *name;
     bool has_camera;
-    float eye[3], target[3];
+    double eye[3], target[3];
     double vfov_deg;
 } courtyard_views[] = {
     {"courtyard", false, {0}, {0}, 0.0},
-    {"courtyard-machine", true, {1.75f, 1.35f, 3.6f}, {2.68f, 0.92f, 0.7f}, 40.0},
-    {"courtyard-grass", true, {-1.75f, 0.85f, 3.35f}, {-3.7f, 0.18f, 0.3f}, 40.0},
+    {"courtyard-machine", true, {1.75, 1.35, 3.6}, {2.68, 0.92, 0.7}, 40.0},
+    {"courtyard-grass", true, {-1.75, 0.85, 3.35}, {-3.7, 0.18, 0.3}, 40.0},
 };
 
 static int model_index(views_list *list, const char *path, report *r)

@@ -74,7 +74,7 @@ static bool usable(const cJSON *number)
     return cJSON_IsNumber(number) && fabs(number->valuedouble) < 1e18;
 }
 
-static int read_vector(const place *at, const cJSON *view, const char *key, float out[3])
+static int read_vector(const place *at, const cJSON *view, const char *key, double out[3])
 {
     const cJSON *list = cJSON_GetObjectItemCaseSensitive(view, key);
 
@@ -85,7 +85,7 @@ static int read_vector(const place *at, const cJSON *view, const char *key, floa
         const cJSON *number = cJSON_GetArrayItem(list, i);
         if (!usable(number))
             return refuse(at, key, "is no list of three numbers; give [x, y, z]");
-        out[i] = (float)number->valuedouble;
+        out[i] = number->valuedouble;
     }
     return EXIT_DONE;
 }
