@@ -38,7 +38,7 @@ grep -q '^builtin:corner *64 *36 *hbao *medium *gauss5 *scalar *exact *2 *2\.00 
 good bench builtin:corner $small --isa all --structure all --json --quiet
 [ ! -s stderr.txt ] || fail "not quiet"
 sets=$("$tool" devices | sed -n 's/^cpu  *//p' | tr ',' '\n' | grep -c .)
-methods=$("$tool" methods --json | grep -c '"weighting"')
+methods=$("$tool" methods --json | grep -c '"weighting":')
 mv stdout.txt isas.json
 sound isas.json $((methods * (2 * sets - 1)))
 # shellcheck disable=SC2086

@@ -51,6 +51,13 @@ typedef enum crv_spacing {
     CRV_SPACING_QUADRATIC = 1
 } crv_spacing;
 
+/* What is taken to lie beyond the buffers' borders. */
+typedef enum crv_border {
+    /* The surfaces at the border go on as planes. */
+    CRV_BORDER_EXTRAPOLATE = 0,
+    CRV_BORDER_BACKGROUND = 1 /* nothing */
+} crv_border;
+
 /* What vao divides the open length of its pipes by. */
 typedef enum crv_normaliser {
     /* The length of the chords: weighted importance sampling. */
@@ -130,8 +137,10 @@ typedef struct crv_options {
     /* Raises hbao's tangent: occluders that rise less over the surface are ignored. */
     float bias_deg;
     crv_attenuation attenuation;
-    int32_t normal_rays;    /* Nn, per direction */
-    int32_t growing_sphere; /* hsao deflects only towards what is nearer than the step */
+    crv_weighting weighting; /* gtao: which integral it estimates */
+    crv_border border;       /* gtao */
+    int32_t normal_rays;     /* Nn, per direction */
+    int32_t growing_sphere;  /* hsao deflects only towards what is nearer than the step */
     /* How far behind its front a surface counts as solid where no layer tells its back,
      * in radii, along the view axis; 0: without end. Things that are seen from in front
      * are rarely as thick as what they hide. */

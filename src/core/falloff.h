@@ -7,6 +7,9 @@
 
 #include <math.h>
 
+/* The largest share of the radius that has a weight. */
+#define CRV__FALLOFF_END 0.99999994f
+
 /* W(r) of an occluder at distance r = q * radius; 0 from q = 1 on. See crv_falloff. */
 static inline float crv__falloff(const crv__params *p, float q)
 {

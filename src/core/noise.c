@@ -3,12 +3,12 @@
 
 #include <math.h>
 
-/* Van der Corput's radical inverse in base 2. */
-static double radical_inverse(uint32_t i)
+/* Van der Corput's radical inverse. */
+static double radical_inverse(uint32_t i, uint32_t base)
 {
-    double value = 0, digit = 0.5;
-    for (; i; i >>= 1, digit *= 0.5)
-        value += digit * (i & 1);
+    double value = 0, digit = 1.0 / base;
+    for (; i; i /= base, digit /= base)
+        value += digit * (i % base);
     return value;
 }
 
@@ -55,13 +55,20 @@ void crv__noise_fill(crv__noise_texel *tile, int32_t size, double sector_rad,
     const uint32_t edge = (uint32_t)size, count = edge * edge;
     const double shift_alpha = seed ? hash((uint32_t)seed, 4) / 4294967296.0 : 0;
     const double shift_beta = seed ? hash((uint32_t)seed, 5) / 4294967296.0 : 0;
+    const double shift_sector = seed ? hash((uint32_t)seed, 6) / 4294967296.0 : 0;
     rank_texels(scratch, edge, (uint32_t)seed);
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t rank = scratch[i];
         double a = fmod((rank + 0.5) / count + shift_alpha, 1);
-        double b = fmod(radical_inverse(rank) + 0.5 / count + shift_beta, 1);
+        double b = fmod(radical_inverse(rank, 2) + 0.5 / count + shift_beta, 1);
         double beta = fmin(fmax(2 * b - 1, -1 + 1e-6), 1 - 1e-6);
-        tile[i] = (crv__noise_texel){(float)cos(a * sector_rad),
-                                     (float)sin(a * sector_rad), (float)beta, 0};
+        const double sector =
+            fmod(radical_inverse(rank, 3) + 0.5 / count + shift_sector, 1);
+        tile[i] = (crv__noise_texel){
+            .cos_alpha = (float)cos(a * sector_rad),
+            .sin_alpha = (float)sin(a * sector_rad),
+            .beta = (float)beta,
+            .sector_offset = (float)fmin(sector, 1 - 1e-6),
+        };
     }
 }

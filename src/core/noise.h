@@ -5,11 +5,12 @@
 #include "shared/params.h"
 
 /*
- * Fills a size x size tile of rotations alpha in [0, sector_rad) and jitters beta in (-1,
- * 1). The pairs are a Hammersley set, so that any size x size window of pixels holds a
- * well-spread sample of both. They are laid out by an ordered-dither matrix where size is
- * a power of two (neighbours differ much) and shuffled otherwise. `seed` shifts the set
- * and its layout. scratch: size * size integers.
+ * Fills a size x size tile of rotations alpha in [0, sector_rad), jitters beta in (-1, 1)
+ * and sector offsets in [0, 1). The triples are a Hammersley set (bases 2 and 3), so that
+ * any size x size window of pixels holds a well-spread sample of all. They are laid out
+ * by an ordered-dither matrix where size is a power of two (neighbours differ much) and
+ * shuffled otherwise. `seed` shifts the set and its layout. scratch: size * size
+ * integers.
  */
 void crv__noise_fill(crv__noise_texel *tile, int32_t size, double sector_rad,
                      int32_t seed, uint32_t *scratch);

@@ -15,6 +15,8 @@ static const char *const NORMALISERS[] = {"weighted", "analytic", NULL};
 static const char *const CHARACTERISTICS[] = {"product", "depth", "field", NULL};
 static const char *const SPACINGS[] = {"equal", "quadratic", NULL};
 static const char *const ATTENUATIONS[] = {"slab", "horizon", NULL};
+static const char *const WEIGHTINGS[] = {"uniform", "cosine", NULL};
+static const char *const BORDERS[] = {"extrapolate", "background", NULL};
 
 /* Who reads an option. */
 typedef enum reader { EVERY_METHOD, SOME_METHODS, SOME_FILTERS } reader;
@@ -69,6 +71,11 @@ static const row TABLE[] = {
            "slab: each occluder weighs the elevations that it is first to block; "
            "horizon: the "
            "highest occluder weighs its whole slice"),
+    CHOICE(weighting, CRV_WEIGHTING_COSINE, WEIGHTINGS, SOME_METHODS,
+           "of the hemisphere: cosine as in renderers' AO passes, or uniform as in hbao"),
+    CHOICE(border, CRV_BORDER_EXTRAPOLATE, BORDERS, SOME_METHODS,
+           "beyond the picture: extrapolate, surfaces go on as planes; background, there "
+           "is nothing"),
     INT(normal_rays, "", 1, 0, 64, SOME_METHODS,
         "Nn: rays above the horizon (hsao) or over the hemisphere (raymarch) for each "
         "direction"),

@@ -55,6 +55,8 @@ void crv__setup_params(const crv__setup *setup, crv__params *p)
     p->sin_bias = (float)sin((double)o->bias_deg * PI / 180);
     p->cos_bias = (float)cos((double)o->bias_deg * PI / 180);
     p->attenuation = (int32_t)o->attenuation;
+    p->weighting = (int32_t)o->weighting;
+    p->border = (int32_t)o->border;
     p->noise_size = o->noise_size;
     p->noise_x = wrapped((int64_t)d->origin_x - d->guard_left, o->noise_size);
     p->noise_y = wrapped((int64_t)d->origin_y - d->guard_top, o->noise_size);

@@ -59,21 +59,24 @@ struct crv__params {
     int32_t spacing;     /* crv_spacing */
     float thickness;     /* scene units; INFINITY: no limit */
     float filter_normal; /* 1 / (1 - cos of the angle); 0: no limit */
-    float unused;
+    int32_t weighting;   /* crv_weighting */
+
+    int32_t border; /* crv_border */
+    float unused_0, unused_1, unused_2;
 };
 
 /* One texel of the noise tile. */
 struct crv__noise_texel {
     float cos_alpha, sin_alpha; /* rotation, alpha in [0, 2 pi / directions) */
     float beta;                 /* step jitter in (-1, 1) */
-    float unused;
+    float sector_offset;        /* in [0, 1): of bitmask's sectors */
 };
 
 #ifndef VULKAN
 typedef struct crv__params crv__params;
 typedef struct crv__noise_texel crv__noise_texel;
 
-_Static_assert(sizeof(crv__params) == 44 * 4, "no padding, a multiple of 16 bytes");
+_Static_assert(sizeof(crv__params) == 48 * 4, "no padding, a multiple of 16 bytes");
 _Static_assert(offsetof(crv__params, falloff) == 12 * 4, "layout shared with GLSL");
 _Static_assert(offsetof(crv__params, use_field) == 39 * 4, "layout shared with GLSL");
 _Static_assert(sizeof(crv__noise_texel) == 16, "layout shared with GLSL");
