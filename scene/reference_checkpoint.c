@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "reference_internal.h"
@@ -108,7 +109,9 @@ static int fail(const crv_logger *log, const char *path, int reason)
 {
     scene_log(log, CRV_LOG_ERROR, path, "cannot be written (%s); %s",
               reason ? strerror(reason) : "unknown reason",
-              reason == ENOSPC ? "free some space" : "choose another place");
+              reason == ENOSPC  ? "free some space"
+              : reason == EFBIG ? "raise the limit on the size of files (ulimit -f)"
+                                : "choose another place");
     return -1;
 }
 
@@ -168,8 +171,7 @@ int reference_save(reference *r, const char *path, const crv_logger *log)
 static int read_all(reference *r, FILE *file, const char *path, checkpoint_header *header,
                     float *values, const crv_logger *log)
 {
-    static const char damaged[] =
-        "is damaged or no checkpoint; delete it and begin anew, without --resume";
+    static const char damaged[] = "is damaged or no checkpoint; delete it and begin anew";
     uint64_t sum = 0;
     if (fread(header, sizeof *header, 1, file) != 1
         || memcmp(header->format, FORMAT, sizeof FORMAT) != 0)
@@ -177,7 +179,7 @@ static int read_all(reference *r, FILE *file, const char *path, checkpoint_heade
     if (header->fingerprint != fingerprint_of(r) || header->total != reference_total(r))
         return refuse(log, path,
                       "is of another scene, view or setting; give the same ones again, "
-                      "or delete it and begin anew, without --resume");
+                      "or delete it and begin anew");
     if (fread(values, value_bytes(r), 1, file) != 1
         || fread(&sum, sizeof sum, 1, file) != 1 || getc(file) != EOF
         || sum != checksum(header, values, value_bytes(r)) || header->done < 0
@@ -186,16 +188,31 @@ static int read_all(reference *r, FILE *file, const char *path, checkpoint_heade
     return 0;
 }
 
+/* NULL also for what is no file: nobody may ever write to a pipe. */
+static FILE *open_file(const char *path)
+{
+    struct stat status;
+    const int descriptor = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0)
+        return NULL;
+    FILE *file = !fstat(descriptor, &status) && S_ISREG(status.st_mode)
+                     ? fdopen(descriptor, "rb")
+                     : NULL;
+    if (!file)
+        close(descriptor);
+    return file;
+}
+
 int reference_load(reference *r, const char *path, const crv_logger *log)
 {
-    FILE *file = fopen(path, "rb");
+    FILE *file = open_file(path);
     float *values = malloc(value_bytes(r));
     checkpoint_header header;
     int result = -1;
     if (r->falloffs)
         refuse(log, path, no_checkpoint);
     else if (!file)
-        refuse(log, path, "cannot be read; begin anew, without --resume");
+        refuse(log, path, "cannot be read as a file; delete it and begin anew");
     else if (!values)
         refuse(log, path, "no memory to read it; close other programs");
     else

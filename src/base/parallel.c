@@ -3,6 +3,7 @@
 
 #if defined(_OPENMP)
 #include <omp.h>
+enum { MAX_THREADS = 1024 };
 #endif
 
 void crv__parallel_for(const crv_parallel *hook, int32_t threads, uint32_t count,
@@ -13,7 +14,10 @@ void crv__parallel_for(const crv_parallel *hook, int32_t threads, uint32_t count
         return;
     }
 #if defined(_OPENMP)
-    int team = threads > 0 ? threads : omp_get_max_threads();
+    /* OMP_NUM_THREADS may be anything. */
+    const int all =
+        omp_get_max_threads() < MAX_THREADS ? omp_get_max_threads() : MAX_THREADS;
+    const int team = threads > 0 ? threads : all;
     if (team > 1 && count > 1) {
         /* Rows of a picture differ in cost by a factor of ten (sky against grass). */
 #pragma omp parallel for schedule(dynamic, 1) num_threads(team)

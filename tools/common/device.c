@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "progress.h"
+
 /* "auto", then the names in the order of crv_isa. */
 static const char *const isa_choices[] = {"auto",   "scalar", "sse4", "avx2",
                                           "avx512", "neon",   NULL};
@@ -91,10 +93,38 @@ static int choose_device(const common_settings *common, crv_context_desc *desc, 
     return EXIT_DONE;
 }
 
+static int make_context(const common_settings *common, crv_context_desc *desc, report *r,
+                        crv_context **out)
+{
+    desc->threads = common->threads.value;
+    desc->exact = common->exact;
+    desc->depth_layout = common->depth_layout;
+    desc->half_filters = common->half_filters;
+    if (choose_device(common, desc, r) != EXIT_DONE)
+        return EXIT_USAGE;
+    if (common->isa.value > 0) {
+        desc->isa_mask = 1u << (common->isa.value - 1);
+        if (!(desc->isa_mask & crv_isa_available())) {
+            char names[128];
+            device_list_isas(names, sizeof names);
+            report_error(r, "--isa %s: not on this machine; there are %s",
+                         isa_choices[common->isa.value], names);
+            return EXIT_USAGE;
+        }
+    }
+    return report_ok(r, crv_context_create(desc, out), "context") ? EXIT_DONE
+                                                                  : EXIT_FAILED;
+}
+
 int device_context(const common_settings *common, const crv_logger *logger, report *r,
                    crv_context **out)
 {
-    return device_context_in(common, logger, NULL, r, out);
+    crv_context_desc desc;
+
+    crv_context_desc_init(&desc, sizeof desc);
+    desc.logger = *logger;
+    desc.parallel = progress_loops(r, common->threads.value);
+    return make_context(common, &desc, r, out);
 }
 
 int device_context_in(const common_settings *common, const crv_logger *logger,
@@ -104,24 +134,6 @@ int device_context_in(const common_settings *common, const crv_logger *logger,
 
     crv_context_desc_init(&desc, sizeof desc);
     desc.logger = *logger;
-    desc.threads = common->threads.value;
-    desc.exact = common->exact;
-    desc.depth_layout = common->depth_layout;
-    desc.half_filters = common->half_filters;
-    if (allocator)
-        desc.allocator = *allocator;
-    if (choose_device(common, &desc, r) != EXIT_DONE)
-        return EXIT_USAGE;
-    if (common->isa.value > 0) {
-        desc.isa_mask = 1u << (common->isa.value - 1);
-        if (!(desc.isa_mask & crv_isa_available())) {
-            char names[128];
-            device_list_isas(names, sizeof names);
-            report_error(r, "--isa %s: not on this machine; there are %s",
-                         isa_choices[common->isa.value], names);
-            return EXIT_USAGE;
-        }
-    }
-    return report_ok(r, crv_context_create(&desc, out), "context") ? EXIT_DONE
-                                                                   : EXIT_FAILED;
+    desc.allocator = *allocator;
+    return make_context(common, &desc, r, out);
 }

@@ -6,12 +6,12 @@
 #include "args.h"
 #include "text.h"
 
-/* A context with the logger; the caller destroys it. EXIT_USAGE with an error line where
- * this machine lacks what was asked for. */
+/* A context with the logger, which tells how far long estimates are; the caller destroys
+ * it. EXIT_USAGE after an error line if this machine lacks what was asked for. */
 int device_context(const common_settings *common, const crv_logger *logger, report *r,
                    crv_context **out);
 
-/* The same with memory from this allocator; NULL: the C library's. */
+/* The same with memory from this allocator and the library's own loops, for timing. */
 int device_context_in(const common_settings *common, const crv_logger *logger,
                       const crv_allocator *allocator, report *r, crv_context **out);
 

@@ -1,21 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-#define _POSIX_C_SOURCE 200809L
-
 #include "output.h"
 
-#include <signal.h>
 #include <stdio.h>
-#include <string.h>
 
-static const int held_signals[] = {SIGINT, SIGTERM, SIGHUP};
-enum { HELD_COUNT = sizeof held_signals / sizeof held_signals[0] };
+#include "interrupt.h"
 
-static volatile sig_atomic_t caught_signal;
-
-static void on_signal(int number)
-{
-    caught_signal = number;
-}
+enum { GRACE_S = 1 };
 
 int output_spare(const char *path, const char *input, report *r)
 {
@@ -44,31 +34,13 @@ int output_check(const char *path, const char *input, report *r)
 }
 
 /* io_write() goes through a temporary file, which a signal in the middle would leave
- * behind; so signals are held until it is done and then take their course. */
+ * behind. */
 int output_guarded(int (*write)(void *data), void *data)
 {
-    struct sigaction hold = {.sa_handler = on_signal, .sa_flags = SA_RESTART};
-    struct sigaction former[HELD_COUNT];
-
-    caught_signal = 0;
-    sigemptyset(&hold.sa_mask);
-    for (int i = 0; i < HELD_COUNT; i++) {
-        sigaction(held_signals[i], NULL, &former[i]);
-        /* What the caller ignores, as nohup does, stays ignored. */
-        if (former[i].sa_handler != SIG_IGN)
-            sigaction(held_signals[i], &hold, NULL);
-    }
+    interrupt_hold(GRACE_S);
     const int result = write(data);
-    for (int i = 0; i < HELD_COUNT; i++)
-        sigaction(held_signals[i], &former[i], NULL);
-    if (caught_signal != 0)
-        raise(caught_signal);
+    interrupt_release();
     return result;
-}
-
-bool output_interrupted(void)
-{
-    return caught_signal != 0;
 }
 
 typedef struct picture {

@@ -20,12 +20,8 @@ int output_check(const char *path, const char *input, report *r);
 int output_write(const char *path, const io_image *image, const io_write_options *options,
                  report *r);
 
-/* Calls write(data) while signals that would end the tool are held, so that a file which
- * is being written is finished first. Returns what write() returned. */
+/* Calls write(data) while signals that would end the tool wait, a second at most, so that
+ * a file which is being written is finished first. Returns what write() returned. */
 int output_guarded(int (*write)(void *data), void *data);
-
-/* Whether a signal waits for the end of the guarded call: work that can be given up
- * should be. */
-bool output_interrupted(void);
 
 #endif

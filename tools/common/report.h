@@ -15,6 +15,7 @@ typedef struct report {
     bool verbose; /* details too */
     bool brief;   /* hold back what rooms log as information: the later frames of a range,
                      which would repeat what was said of the first */
+    int32_t threads;   /* of progress_loops(); 0: all */
     int32_t errors;    /* lines so far, so that no failure goes without one */
     crv_logger logger; /* hand this to the library, io and scene */
 } report;

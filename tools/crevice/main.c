@@ -10,6 +10,12 @@
 #include "common/help.h"
 #include "common/nearest.h"
 
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+enum { THREADS_MAX = 1024 }; /* as --threads */
+
 static const command *const commands[] = {&command_render,  &command_ao,
                                           &command_gbuffer, &command_reference,
                                           &command_compare, &command_methods,
@@ -89,11 +95,28 @@ static int dispatch(int argc, char **argv, report *r)
     return c ? run_command(c, argc - 2, argv + 2, r) : EXIT_USAGE;
 }
 
+/* OMP_NUM_THREADS may ask for more than the system can make, which ends in a crash. */
+static void limit_threads(report *r)
+{
+#ifdef _OPENMP
+    const int wanted = omp_get_max_threads();
+
+    if (wanted <= THREADS_MAX)
+        return;
+    report_warning(r, "OMP_NUM_THREADS: %d are more than %d threads; takes %d", wanted,
+                   THREADS_MAX, omp_get_num_procs());
+    omp_set_num_threads(omp_get_num_procs());
+#else
+    (void)r;
+#endif
+}
+
 int main(int argc, char **argv)
 {
     report r;
 
     report_init(&r);
+    limit_threads(&r);
     signal(SIGXFSZ, SIG_IGN); /* a limit on file sizes is an error of write() then */
     int result = dispatch(argc, argv, &r);
     /* A full disk behind a redirection shows only now. */

@@ -3,48 +3,20 @@
 
 #include "reference_run.h"
 
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "common/interrupt.h"
+#include "common/progress.h"
 #include "io.h"
 
 #define BATCH_SECONDS      0.25
 #define CHECKPOINT_SECONDS 10.0
-#define LINE_SECONDS       10.0 /* between lines of progress where there is no terminal */
-enum { FIRST_BATCH = 64 };
 
-static const int stop_signals[] = {SIGINT, SIGTERM, SIGHUP};
-enum { STOP_COUNT = sizeof stop_signals / sizeof stop_signals[0] };
-
-static volatile sig_atomic_t stop_signal;
-
-static void on_stop(int number)
-{
-    stop_signal = number;
-}
-
-static void hold_signals(struct sigaction former[STOP_COUNT])
-{
-    struct sigaction hold = {.sa_handler = on_stop, .sa_flags = SA_RESTART};
-
-    stop_signal = 0;
-    sigemptyset(&hold.sa_mask);
-    for (int i = 0; i < STOP_COUNT; i++) {
-        sigaction(stop_signals[i], NULL, &former[i]);
-        /* What the caller ignores, as nohup does, stays ignored. */
-        if (former[i].sa_handler != SIG_IGN)
-            sigaction(stop_signals[i], &hold, NULL);
-    }
-}
-
-static void release_signals(const struct sigaction former[STOP_COUNT])
-{
-    for (int i = 0; i < STOP_COUNT; i++)
-        sigaction(stop_signals[i], &former[i], NULL);
-}
+/* A pixel takes a tenth of a second at most. A checkpoint is worth some waiting. */
+enum { FIRST_BATCH = 4, GRACE_S = 10 };
 
 int reference_run_check(reference_run *run, const char *output, bool resume, report *r)
 {
@@ -96,55 +68,6 @@ static int begin(reference_run *run, const char *output, bool resume, report *r)
     return EXIT_FAILED;
 }
 
-/* "1 h 04 min", "3 min 20 s", "12 s" */
-static void describe_time(double seconds, char *out, size_t size)
-{
-    long whole = seconds < 1e8 ? (long)(seconds + 0.5) : 100000000;
-
-    if (whole >= 3600)
-        snprintf(out, size, "%ld h %02ld min", whole / 3600, whole / 60 % 60);
-    else if (whole >= 60)
-        snprintf(out, size, "%ld min %02ld s", whole / 60, whole % 60);
-    else
-        snprintf(out, size, "%ld s", whole);
-}
-
-typedef struct progress {
-    double start, told; /* seconds */
-    int64_t from;       /* pixels that were done at the start */
-    bool terminal;
-    int width; /* of the line on the terminal */
-} progress;
-
-static void show_progress(progress *p, const reference *work, report *r)
-{
-    double now = report_seconds();
-    int64_t done = reference_done(work), left = reference_total(work) - done;
-    char time[64], line[128];
-
-    if (r->quiet || (!p->terminal && !r->verbose) || done == p->from
-        || (!p->terminal && now - p->told < LINE_SECONDS))
-        return;
-    p->told = now;
-    describe_time((now - p->start) * (double)left / (double)(done - p->from), time,
-                  sizeof time);
-    const int width =
-        snprintf(line, sizeof line, "reference: %5.1f %%, %s left",
-                 100.0 * (double)done / (double)reference_total(work), time);
-    if (p->terminal)
-        fprintf(stderr, "\r%s%*s", line, p->width > width ? p->width - width : 0, "");
-    else
-        report_info(r, "%s", line);
-    p->width = width;
-    fflush(stderr);
-}
-
-static void end_progress(const progress *p)
-{
-    if (p->width > 0 && p->terminal)
-        fprintf(stderr, "\r%*s\r", p->width, "");
-}
-
 /* A checkpoint that fails does not end the work, which is still in memory. */
 static void save(reference_run *run, report *r)
 {
@@ -155,55 +78,49 @@ static void save(reference_run *run, report *r)
 
 static void compute(reference_run *run, int32_t threads, report *r)
 {
-    progress p = {.start = report_seconds(),
-                  .told = report_seconds(),
-                  .from = reference_done(run->work),
-                  .terminal = isatty(STDERR_FILENO) != 0};
+    progress p = progress_begin(r, "reference", reference_done(run->work),
+                                reference_total(run->work));
+    p.detail = true;
     double last_save = p.start;
     int64_t batch = FIRST_BATCH;
 
     run->is_saved = true;
-    while (reference_done(run->work) < reference_total(run->work) && stop_signal == 0) {
-        double start = report_seconds();
+    while (reference_done(run->work) < reference_total(run->work) && !interrupt_waits()) {
+        const double start = report_seconds();
 
         reference_advance(run->work, batch, threads);
         run->is_saved = false;
         const double now = report_seconds();
         if (now - start < 0.5 * BATCH_SECONDS)
             batch *= 2;
-        else if (now - start > 2.0 * BATCH_SECONDS && batch > FIRST_BATCH)
+        else if (now - start > 2.0 * BATCH_SECONDS && batch > 1)
             batch /= 2;
-        show_progress(&p, run->work, r);
+        progress_show(&p, reference_done(run->work));
         if (now - last_save >= CHECKPOINT_SECONDS) {
             save(run, r);
             last_save = report_seconds();
         }
     }
-    end_progress(&p);
+    progress_end(&p);
 }
 
 int reference_run_all(reference_run *run, const char *output, bool resume,
                       int32_t threads, report *r)
 {
-    struct sigaction former[STOP_COUNT];
-
-    hold_signals(former);
+    interrupt_hold(GRACE_S);
     const int result = begin(run, output, resume, r);
     if (result == EXIT_DONE)
         compute(run, threads, r);
-    int caught = stop_signal;
-    if (result == EXIT_DONE && caught != 0 && !run->is_saved)
+    const bool stopped = interrupt_waits();
+    if (result == EXIT_DONE && stopped && !run->is_saved)
         save(run, r);
-    release_signals(former);
-    if (caught == 0)
-        return result;
-    if (result == EXIT_DONE && run->is_saved)
+    if (result == EXIT_DONE && stopped && run->is_saved)
         report_error(r, "%s: interrupted at %.1f %%; go on with --resume",
                      run->checkpoint,
                      100.0 * (double)reference_done(run->work)
                          / (double)reference_total(run->work));
-    raise(caught);
-    return EXIT_FAILED;
+    interrupt_release();
+    return stopped ? EXIT_FAILED : result;
 }
 
 void reference_run_keep(reference_run *run, report *r)

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: MIT
+# What must neither hang, crash nor break an output: pipes in a checkpoint's place, limits,
+# absurd numbers of threads, names that are no text, signals in the middle of long work.
+. "$(dirname "$0")/tool_lib.sh"
+
+tiny="builtin:corner --size 16x12"
+
+# within SECONDS WORDS...: the exit code of a run that must end by itself; 137 if not.
+within() {
+    seconds=$1
+    shift
+    code=0
+    timeout -s KILL "$seconds" "$tool" "$@" >stdout.txt 2>stderr.txt || code=$?
+}
+
+# A pipe that nobody writes to is no checkpoint.
+mkfifo z.exr.checkpoint
+# shellcheck disable=SC2086 # words
+within 10 reference $tiny -o z.exr --rays 4 --resume
+[ $code -eq 1 ] || fail "exit code $code with a pipe as checkpoint"
+grep -q '^crevice: z.exr.checkpoint: cannot be read as a file; ' stderr.txt ||
+    fail "the pipe is not told of: $(cat stderr.txt)"
+rm z.exr.checkpoint
+
+# A limit on the size of files is called what it is. ThreadSanitizer needs larger files.
+if [ -z "${TSAN_OPTIONS:-}" ]; then
+    code=0
+    (
+        ulimit -f 8
+        exec "$tool" reference builtin:corner --size 160x90 -o out.exr --rays 4
+    ) >stdout.txt 2>stderr.txt || code=$?
+    [ $code -eq 1 ] || fail "exit code $code at the limit"
+    grep -q '^crevice: out.exr.checkpoint: cannot be written (.*; raise the limit' stderr.txt ||
+        fail "the limit is not told of: $(cat stderr.txt)"
+fi
+
+# Threads from the environment that no system can make.
+# shellcheck disable=SC2086
+OMP_NUM_THREADS=100000 within 60 render $tiny -o many.exr
+[ $code -eq 0 ] || fail "exit code $code with 100000 threads"
+if grep -q '^crevice: warning: ' stderr.txt; then # built with OpenMP
+    grep -q '^crevice: warning: OMP_NUM_THREADS: 100000 are more' stderr.txt ||
+        fail "the warning: $(cat stderr.txt)"
+fi
+# shellcheck disable=SC2086
+good render $tiny -o few.exr --threads 1
+cmp -s many.exr few.exr || fail "another picture with other threads"
+
+# JSON and messages stay text if a file's name is none: 0xff, ESC, and U+009B.
+odd=$(printf 'a\377b\033c\302\233d.exr')
+cp few.exr "$odd"
+good compare --json "$odd" few.exr
+if command -v python3 >/dev/null; then
+    python3 -c 'import json, sys
+name = json.loads(sys.stdin.buffer.read().decode("utf-8"))["a"]
+assert name == "a\ufffdb\x1bc\x9bd.exr", ascii(name)' <stdout.txt || fail "JSON of a name"
+fi
+rm "$odd"
+bad 1 'a?b?c??d.exr: ' compare --json "$odd" few.exr
+LC_ALL=C grep -q "$(printf '[\033\377\233]')" stderr.txt && fail "bytes for the terminal"
+
+# Two outputs that are one file, through a link to what is not there yet.
+ln -s new.png link.png
+bad 2 'two pictures' render $tiny -o new.png --lit link.png
+rm link.png
+
+# Work that takes longer than ten seconds says how long beforehand and ends at a signal
+# within a second, leaving nothing; with no terminal, and one thread of a slow set.
+"$tool" render builtin:courtyard --size 1280x720 --method containment --samples 2000 \
+    --isa scalar --threads 1 -o long.exr >stdout.txt 2>stderr.txt &
+process=$!
+tries=0
+while ! grep -q 'estimation: .* left$' stderr.txt && [ $tries -lt 600 ]; do
+    sleep 0.1
+    tries=$((tries + 1))
+done
+grep -q '^estimation:  *[0-9.]* %, [0-9].* left$' stderr.txt || fail "nothing is told of long work"
+before=$(date +%s%N)
+kill -INT $process 2>/dev/null || kill -TERM $process
+kill -TERM $process 2>/dev/null || true # shells start background work deaf to SIGINT
+code=0
+wait $process || code=$?
+spent=$((($(date +%s%N) - before) / 1000000))
+[ $code -gt 128 ] || fail "exit code $code after a signal"
+[ $spent -lt 1000 ] || fail "$spent ms to end after a signal"
+[ -z "$(find . -name 'long*' -o -name '.?*')" ] || fail "a file is left after a signal"

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT */
+/* progress.h: how far work that takes long has come, and what is left. */
+#ifndef TOOL_PROGRESS_H
+#define TOOL_PROGRESS_H
+
+#include "report.h"
+
+/* On a terminal a line that is written over; elsewhere a line now and then. */
+typedef struct progress {
+    report *r;
+    const char *name;   /* "reference" */
+    double start, told; /* seconds */
+    int64_t from, total;
+    bool terminal;
+    bool detail; /* without a terminal: with --verbose only */
+    int width;   /* of the line on the terminal */
+} progress;
+
+/* from: what was done before. */
+progress progress_begin(report *r, const char *name, int64_t from, int64_t total);
+void progress_show(progress *p, int64_t done);
+void progress_end(progress *p);
+
+/* Runs the library's loops on OpenMP's threads, as the library itself does, and says of
+ * those that take more than ten seconds how long they will. threads: 0 for all. Zeroed,
+ * so that the library runs them, if the tool is built without OpenMP. */
+crv_parallel progress_loops(report *r, int32_t threads);
+
+#endif
