@@ -110,6 +110,16 @@ void io__output_discard(io__output *output)
     memset(output, 0, sizeof *output);
 }
 
+bool io__output_stops(const io__output *output)
+{
+    return output->stop && output->stop();
+}
+
+int io__output_stopped(const io__output *output)
+{
+    return io__fail(output->log, output->path, "is not written: interrupted");
+}
+
 int io__output_flush(const io__output *output)
 {
     int result = 0;

@@ -117,6 +117,8 @@ static void aim(const writer *w, exr_encode_pipeline_t *encode, int32_t y)
 static exr_result_t pack_chunk(const writer *w, int32_t y, exr_encode_pipeline_t *encode)
 {
     exr_chunk_info_t info;
+    if (io__output_stops(w->output))
+        return EXR_ERR_UNKNOWN;
     exr_result_t code =
         exr_write_scanline_chunk_info(w->context, w->part, w->image->data_y + y, &info);
     const bool first = !encode->channels;
@@ -209,6 +211,8 @@ int io__exr_write(io__output *output, const io_image *image,
     }
     if (!code && !w.io_error)
         return 0;
+    if (io__output_stops(output))
+        return io__output_stopped(output);
     errno = w.io_error;
     if (w.io_error)
         return io__output_fail(output);

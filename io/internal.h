@@ -25,11 +25,6 @@ void io__warn(const crv_logger *log, const char *path, const char *format, ...)
 void io__info(const crv_logger *log, const char *path, const char *format, ...)
     IO__PRINTF(3, 4);
 
-/* Replaces what must not reach a terminal or a log in a text from outside by '?': control
- * characters, those of UTF-8 and those that turn the direction of text included, and
- * bytes that are no UTF-8. */
-void io__clean_text(char *text);
-
 /* Fails with the list of the channels that `image` has and the nearest of them. */
 int io__fail_channel(const crv_logger *log, const char *path, const char *wanted,
                      const io_image *image);
@@ -66,6 +61,7 @@ typedef struct io__output {
     char *temporary;  /* owned */
     FILE *stream;
     const crv_logger *log;
+    bool (*stop)(void); /* io_write_options.stop */
 } io__output;
 
 /* Opens the temporary file. After success, one of commit or discard must follow. */
@@ -77,6 +73,10 @@ int io__output_commit(io__output *output);
 void io__output_discard(io__output *output);
 /* Logs the failed write with errno's reason; returns -1. */
 int io__output_fail(const io__output *output);
+/* Whether the caller wants no more of it, from any thread; then io__output_stopped() logs
+ * that and returns -1. */
+bool io__output_stops(const io__output *output);
+int io__output_stopped(const io__output *output);
 /* The file that a path names, links followed, if it can be written; NULL after an error
  * line. The caller frees it. */
 char *io__writable_target(const char *path, const crv_logger *log);

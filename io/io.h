@@ -73,6 +73,8 @@ typedef struct io_write_options {
     int32_t bits; /* PNG: 8 (default, also for 0) or 16 */
     bool
         srgb; /* PNG: encode with the sRGB curve (lit pictures); AO is written linearly */
+    bool (*stop)(void); /* asked now and then by any thread: true gives the writing up,
+                           after an error line. NULL: never */
 } io_write_options;
 
 /*
@@ -96,6 +98,14 @@ void io_copy_window(const io_image *from, const float *source, const io_image *t
 /* Whether io_write() could write there: known extension, folder exists and is writable,
  * path is not a folder. For finding out before a long computation. */
 int io_check_writable(const char *path, const crv_logger *log);
+
+/* Replaces what must not reach a terminal or a log in a text from outside by '?': control
+ * characters, those of UTF-8 and those that turn the direction of text included, and
+ * bytes that are no UTF-8. */
+void io_clean_text(char *text);
+
+/* The bytes of the UTF-8 character at `at`; 0 if there is none. */
+size_t io_character_length(const char *at);
 
 /* Whether both paths name one file, links followed; neither need be there yet. For
  * outputs that would replace each other, or an input. */

@@ -154,6 +154,8 @@ static int write_rows(io__output *output, const io_image *image, const int32_t *
         }
         if (io__write(output->stream, row, width * channels * 4) != width * channels * 4)
             result = io__output_fail(output);
+        else if (io__output_stops(output))
+            result = io__output_stopped(output);
     }
     free(row);
     return result;

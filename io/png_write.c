@@ -84,6 +84,8 @@ static int write_all(writer *w)
         png_set_sRGB_gAMA_and_cHRM(w->png, w->info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_write_info(w->png, w->info);
     for (int32_t y = 0; y < w->image->height; y++) {
+        if (io__output_stops(w->output))
+            return io__output_stopped(w->output);
         fill_row(w, y);
         png_write_row(w->png, w->row);
     }

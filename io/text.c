@@ -38,7 +38,13 @@ static bool is_control(uint32_t point)
            || (point >= 0x2066 && point <= 0x2069);
 }
 
-void io__clean_text(char *text)
+size_t io_character_length(const char *at)
+{
+    uint32_t point;
+    return decode((const unsigned char *)at, &point);
+}
+
+void io_clean_text(char *text)
 {
     char *to = text;
     for (const char *from = text; *from;) {

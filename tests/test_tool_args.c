@@ -8,9 +8,9 @@
 
 #include <cmocka.h>
 
-#include "args.h"
+#include "common/args.h"
 #include "frames.h"
-#include "nearest.h"
+#include "common/nearest.h"
 
 typedef struct settings {
     common_settings common;

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "metrics.h"
+#include "common/metrics.h"
 
 /* Sums of a few hundred doubles: far below this. */
 static const double rounding = 1e-12;

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "metrics_fit.h"
+#include "common/metrics_fit.h"
 
 static void assert_near(double value, double expected, double tolerance)
 {

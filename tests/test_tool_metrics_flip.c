@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "flip.h"
+#include "common/flip.h"
 
 static void assert_near(double value, double expected, double tolerance)
 {

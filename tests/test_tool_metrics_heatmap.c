@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "heatmap.h"
+#include "common/heatmap.h"
 
 static void assert_near(double value, double expected, double tolerance)
 {

@@ -10,7 +10,7 @@
 
 #include "study/plot.h"
 #include "study/plot_axis.h"
-#include "text.h"
+#include "common/text.h"
 
 static void check_front(const double *x, const double *y, int32_t count,
                         const char *expected)

@@ -1,17 +1,14 @@
 # SPDX-License-Identifier: MIT
 # The command-line tool: its parts that compute, then whole runs of it.
-set(common_dir ${PROJECT_SOURCE_DIR}/tools/common)
 set(tool_dir ${PROJECT_SOURCE_DIR}/tools/crevice)
 
-crevice_test(test_tool_metrics SOURCES test_tool_metrics.c ${common_dir}/metrics.c)
-crevice_test(test_tool_metrics_fit SOURCES test_tool_metrics_fit.c ${common_dir}/metrics_fit.c)
-crevice_test(test_tool_metrics_flip SOURCES test_tool_metrics_flip.c ${common_dir}/flip.c)
+crevice_test(test_tool_metrics SOURCES test_tool_metrics.c LIBS crevice_common)
+crevice_test(test_tool_metrics_fit SOURCES test_tool_metrics_fit.c LIBS crevice_common)
+crevice_test(test_tool_metrics_flip SOURCES test_tool_metrics_flip.c LIBS crevice_common)
 crevice_test(test_tool_metrics_heatmap
-    SOURCES test_tool_metrics_heatmap.c ${common_dir}/heatmap.c)
+    SOURCES test_tool_metrics_heatmap.c LIBS crevice_common)
 crevice_test(test_tool_args
-    SOURCES test_tool_args.c ${common_dir}/args.c ${common_dir}/values.c ${common_dir}/report.c ${common_dir}/utf8.c
-            ${common_dir}/nearest.c
-            ${tool_dir}/frames.c)
+    SOURCES test_tool_args.c ${tool_dir}/frames.c LIBS crevice_common)
 crevice_test(test_tool_stability
     SOURCES test_tool_stability.c ${tool_dir}/study/stability.c)
 crevice_test(test_tool_closed_forms
@@ -19,18 +16,13 @@ crevice_test(test_tool_closed_forms
             ${tool_dir}/study/fitted_order.c)
 crevice_test(test_tool_relief_truth
     SOURCES test_tool_relief_truth.c ${tool_dir}/study/claims_relief_truth.c)
-foreach(test test_tool_stability test_tool_closed_forms test_tool_relief_truth)
-    target_include_directories(${test} PRIVATE ${tool_dir} ${PROJECT_SOURCE_DIR}/tools)
-endforeach()
-foreach(test test_tool_metrics test_tool_metrics_fit test_tool_metrics_flip
-        test_tool_metrics_heatmap test_tool_args)
-    target_include_directories(${test} PRIVATE ${common_dir} ${tool_dir})
-endforeach()
-
 crevice_test(test_tool_plot
     SOURCES test_tool_plot.c ${tool_dir}/study/plot_pareto.c ${tool_dir}/study/plot_axis.c
-            ${common_dir}/text.c ${common_dir}/utf8.c)
-target_include_directories(test_tool_plot PRIVATE ${common_dir} ${tool_dir} ${PROJECT_SOURCE_DIR}/tools)
+    LIBS crevice_common)
+foreach(test test_tool_args test_tool_stability test_tool_closed_forms
+        test_tool_relief_truth test_tool_plot)
+    target_include_directories(${test} PRIVATE ${tool_dir} ${PROJECT_SOURCE_DIR}/tools)
+endforeach()
 
 # Each script gets the tool and a folder of its own to write in.
 function(tool_test name)

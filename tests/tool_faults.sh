@@ -56,7 +56,7 @@ name = json.loads(sys.stdin.buffer.read().decode("utf-8"))["a"]
 assert name == "a\ufffdb\x1bc\x9bd.exr", ascii(name)' <stdout.txt || fail "JSON of a name"
 fi
 rm "$odd"
-bad 1 'a?b?c??d.exr: ' compare --json "$odd" few.exr
+bad 1 'a?b?c?d.exr: ' compare --json "$odd" few.exr
 LC_ALL=C grep -q "$(printf '[\033\377\233]')" stderr.txt && fail "bytes for the terminal"
 
 # Two outputs that are one file, through a link to what is not there yet.

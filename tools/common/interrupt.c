@@ -4,13 +4,17 @@
 #include "interrupt.h"
 
 #include <signal.h>
+#include <time.h>
 #include <unistd.h>
+
+#define LATE_SECONDS 0.5
 
 static const int held[] = {SIGINT, SIGTERM, SIGHUP};
 enum { HELD_COUNT = sizeof held / sizeof held[0] };
 
 static struct sigaction former[HELD_COUNT], former_alarm;
 static volatile sig_atomic_t caught, grace;
+static struct timespec caught_at;
 
 /* Everything that it calls may be called in a handler (POSIX, 2.4.3). */
 static void end_now(int number)
@@ -25,6 +29,7 @@ static void on_signal(int number)
 {
     if (caught != 0)
         end_now(number);
+    clock_gettime(CLOCK_MONOTONIC, &caught_at);
     caught = number;
     alarm((unsigned)grace);
 }
@@ -49,6 +54,18 @@ void interrupt_hold(unsigned grace_s)
 bool interrupt_waits(void)
 {
     return caught != 0;
+}
+
+bool interrupt_is_late(void)
+{
+    struct timespec now = {0};
+
+    if (caught == 0)
+        return false;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)(now.tv_sec - caught_at.tv_sec)
+               + 1e-9 * (double)(now.tv_nsec - caught_at.tv_nsec)
+           > LATE_SECONDS;
 }
 
 void interrupt_release(void)

@@ -14,6 +14,9 @@ void interrupt_hold(unsigned grace_s);
 /* Whether a signal waits: work that can be given up should be. */
 bool interrupt_waits(void);
 
+/* Whether one has waited for half a second: so should a file that is being written. */
+bool interrupt_is_late(void);
+
 /* Lets signals through again. One that waited takes its course now: usually this does not
  * return then. */
 void interrupt_release(void);

@@ -6,7 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "utf8.h"
+#include "io.h"
+
+/* U+FFFD stands for bytes that are no character. */
+#define REPLACEMENT "\xef\xbf\xbd"
 
 void json_add_number(cJSON *object, const char *key, double value)
 {
@@ -18,7 +21,7 @@ void json_add_number(cJSON *object, const char *key, double value)
 
 void json_add_text(cJSON *object, const char *key, const char *text)
 {
-    const size_t replacement = strlen(UTF8_REPLACEMENT);
+    const size_t replacement = strlen(REPLACEMENT);
     char *valid = text ? malloc(replacement * strlen(text) + 1) : NULL;
     char *to = valid;
 
@@ -27,9 +30,9 @@ void json_add_text(cJSON *object, const char *key, const char *text)
         return;
     }
     while (*text != '\0') {
-        const size_t length = utf8_length(text);
+        const size_t length = io_character_length(text);
         const size_t count = length > 0 ? length : replacement;
-        memcpy(to, length > 0 ? text : UTF8_REPLACEMENT, count);
+        memcpy(to, length > 0 ? text : REPLACEMENT, count);
         to += count;
         text += length > 0 ? length : 1;
     }

@@ -5,7 +5,8 @@
 
 #include "interrupt.h"
 
-enum { GRACE_S = 1 };
+/* To bring the bytes to disk; what is not packed then is given up before. */
+enum { GRACE_S = 5 };
 
 int output_spare(const char *path, const char *input, report *r)
 {
@@ -53,8 +54,10 @@ typedef struct picture {
 static int write_picture(void *data)
 {
     const picture *p = data;
+    io_write_options options = p->options ? *p->options : (io_write_options){0};
 
-    return io_write(p->path, p->image, p->options, p->log);
+    options.stop = interrupt_is_late;
+    return io_write(p->path, p->image, &options, p->log);
 }
 
 int output_write(const char *path, const io_image *image, const io_write_options *options,

@@ -16,12 +16,14 @@ int output_spare_all(const char *path, const arg_texts *inputs, report *r);
  * there is none). Returns an exit code; meant for before the work. */
 int output_check(const char *path, const char *input, report *r);
 
-/* Writes and tells of it. An interrupt waits until the file is whole. */
+/* Writes and tells of it. An interrupt waits until the file is whole, or half a second.
+ */
 int output_write(const char *path, const io_image *image, const io_write_options *options,
                  report *r);
 
-/* Calls write(data) while signals that would end the tool wait, a second at most, so that
- * a file which is being written is finished first. Returns what write() returned. */
+/* Calls write(data) while signals that would end the tool wait, so that a file which is
+ * being written is finished, or given up and removed, first. Returns what write()
+ * returned. */
 int output_guarded(int (*write)(void *data), void *data);
 
 #endif

@@ -5,28 +5,20 @@
 
 #include <stdarg.h>
 #include <stdio.h>
-#include <string.h>
 #include <time.h>
 
-#include "utf8.h"
+#include "io.h"
 
 enum { LINE_SIZE = 8192 };
 
 /* One call, one line: neither a line break in a file's name may make two of it, nor any
- * control character or stray byte reach the terminal. U+0085 is two bytes, one '?' each.
- */
+ * control character or stray byte reach the terminal. */
 static void write_line(const char *prefix, const char *line)
 {
     char clean[LINE_SIZE];
-    size_t used = 0;
 
-    while (*line != '\0' && used + 4 < sizeof clean) {
-        const size_t length = utf8_printable(line);
-        memcpy(clean + used, length > 0 ? line : "?", length > 0 ? length : 1);
-        used += length > 0 ? length : 1;
-        line += length > 0 ? length : 1;
-    }
-    clean[used] = '\0';
+    snprintf(clean, sizeof clean, "%s", line);
+    io_clean_text(clean);
     fprintf(stderr, "%s%s\n", prefix, clean);
 }
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "utf8.h"
+#include "io.h"
 
 /* Room for so many more bytes and the zero at the end. */
 static bool reserve(text *t, size_t more)
@@ -81,17 +81,16 @@ static const char *entity(unsigned char c)
     case '\'':
         return "&#39;";
     default:
-        return (c < 0x20 && c != '\t' && c != '\n') || c == 0x7f ? UTF8_REPLACEMENT
-                                                                 : NULL;
+        return (c < 0x20 && c != '\t' && c != '\n') || c == 0x7f ? "\xef\xbf\xbd" : NULL;
     }
 }
 
 void text_add_escaped(text *t, const char *words)
 {
     while (*words != '\0') {
-        const size_t length = utf8_length(words);
+        const size_t length = io_character_length(words);
         const char *instead =
-            length == 0 ? UTF8_REPLACEMENT : entity((unsigned char)*words);
+            length == 0 ? "\xef\xbf\xbd" : entity((unsigned char)*words);
 
         if (instead)
             text_add(t, instead);
