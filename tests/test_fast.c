@@ -2,8 +2,7 @@
 /*
  * The fast structure: every instruction set against its scalar statement, on random and
  * pathological data between guard bytes; and against the exact structure, of which it is
- * another draw. And the lean kernels, which only round otherwise, against the
- * specification.
+ * another draw.
  */
 #include "fast.h"
 #include "fixture.h"
@@ -102,32 +101,6 @@ static void sets_compute_the_statement(void **state)
     }
 }
 
-/* Positions that are rounded otherwise fall on the neighbouring texel once in some ten
- * thousand looks; of these few are seen: the neighbour mostly blocks as well. */
-static void lean_kernels_compute_the_specification(void **state)
-{
-    (void)state;
-    static const char *const LEAN[] = {"containment", "hsao", "raymarch"};
-    for (int m = 0; m < 3; m++) {
-        int64_t pixels = 0, beyond[SETS] = {0};
-        for (int32_t i = 0; i < CASES; i++) {
-            simd_case *c = make_case(LEAN[m], i);
-            float *expected = simd_run(c, CRV_ISA_SCALAR);
-            assert_non_null(expected);
-            count_by_set(c, i, expected, beyond);
-            pixels += pixel_count(c);
-            free(expected);
-            simd_case_free(c);
-        }
-        for (int isa = 1; isa < SETS; isa++) {
-            printf("%s %s: %lld of %lld px beyond %g\n", LEAN[m],
-                   crv_isa_name((crv_isa)isa), (long long)beyond[isa], (long long)pixels,
-                   TOLERANCE);
-            assert_true((double)beyond[isa] <= SHARE * (double)pixels + 1);
-        }
-    }
-}
-
 static float *compute(const fixture *f, const crv_options *options, int32_t exact)
 {
     return fixture_compute(f, options, &(fixture_run){.exact = exact});
@@ -198,7 +171,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sets_compute_the_statement),
-        cmocka_unit_test(lean_kernels_compute_the_specification),
         cmocka_unit_test(the_mean_is_the_exact_one),
         cmocka_unit_test(many_samples_converge_to_the_exact_value),
     };

@@ -265,8 +265,6 @@ static void choose_kernels(const crv__setup *setup, const crv__plane *plane,
         return;
     const crv__method_id method = crv__method_id_of(setup->method);
     state->estimate = kernels->estimates[method];
-    if (!setup->context->exact && kernels->lean[method])
-        state->estimate = kernels->lean[method];
     if (setup->filter)
         state->filter = kernels->filters[crv__filter_id_of(setup->filter)];
 }

@@ -12,17 +12,13 @@ CRV__INLINE void follow(const crv__frame *f, crv__shape shape, const crv__pixels
 {
     const crv__params *p = f->params;
     const vf radius = vf_set(p->radius), steps = vf_set((float)p->steps);
-    const crv__v3 start = crv__lanes_projected(p, shape, lifted);
-    crv__v3 rays[RAYS];
-    for (int32_t k = 0; k < count; k++)
-        rays[k] = crv__lanes_projected(p, shape, offsets[k]);
     for (int32_t i = 1; i <= p->steps; i++) {
         const vf part = (vf_set((float)i) + vf_set(0.5f) * at->beta) / steps;
-        const vf reach = i < p->steps ? part * radius : radius;
+        const vf distance = i < p->steps ? part * radius : radius;
         for (int32_t k = 0; k < count; k++) {
             if (!vm_any(open[k]))
                 continue;
-            const crv__v3 q = crv__lanes_along(shape, start, rays[k], reach);
+            const crv__v3 q = crv__v3_add_scaled(lifted, offsets[k], distance);
             const vm inside = crv__lanes_inside(f, shape, q, open[k], p->thickness);
             open[k] = vm_and(open[k], vm_not(inside));
         }
@@ -66,4 +62,3 @@ CRV__INLINE int within(const crv__frame *f, const crv__pixels *at)
 }
 
 CRV__ESTIMATE_KERNEL(containment, 1)
-CRV__LEAN_KERNEL(containment, 1)

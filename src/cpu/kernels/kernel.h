@@ -42,7 +42,6 @@ typedef struct crv__fast_kind {
 /* NULL: there is none. */
 typedef struct crv__kernels {
     crv__estimate_kernel estimates[CRV__METHOD_COUNT];
-    crv__estimate_kernel lean[CRV__METHOD_COUNT]; /* not rounded as the scalar code */
     const crv__fast_kind *fast[CRV__METHOD_COUNT];
     crv__filter_kernel filters[CRV__FILTER_COUNT];
     crv__fast_deal_kernel deal;

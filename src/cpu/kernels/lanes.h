@@ -37,27 +37,7 @@ typedef struct crv__shape {
     int32_t layers, solid, orthographic; /* as in crv__params */
     int32_t within; /* no sample of these pixels leaves the buffers or gets behind the
                        eye, so that none need be tested */
-    int32_t lean;   /* not rounded as the scalar code: some samples fall on the
-                       neighbouring texel */
 } crv__shape;
-
-/* a * b + c, rounded once where the kernel may. */
-CRV__INLINE vf crv__mad(crv__shape shape, vf a, vf b, vf c)
-{
-    return shape.lean ? vf_fma(a, b, c) : a * b + c;
-}
-
-CRV__INLINE vf crv__lanes_dot(crv__shape shape, crv__v3 a, crv__v3 b)
-{
-    return crv__mad(shape, a.z, b.z, crv__mad(shape, a.y, b.y, a.x * b.x));
-}
-
-/* a + b * scale */
-CRV__INLINE crv__v3 crv__lanes_along(crv__shape shape, crv__v3 a, crv__v3 b, vf scale)
-{
-    return (crv__v3){crv__mad(shape, b.x, scale, a.x), crv__mad(shape, b.y, scale, a.y),
-                     crv__mad(shape, b.z, scale, a.z)};
-}
 
 /* A pattern's points, or the directions, as the lanes of a row turn them. */
 enum { CRV__TURNED_POINTS = 64 };
@@ -298,8 +278,11 @@ CRV__INLINE void crv__estimate_row(const crv__frame *f, int32_t x0, int32_t x1, 
     CRV__NOINLINE vf general(const crv__frame *f, const crv__pixels *at)                 \
     {                                                                                    \
         const crv__params *p = f->params;                                                \
-        return accessibility(                                                            \
-            f, (crv__shape){p->layers, p->layers_solid, p->orthographic, 0, 0}, at);     \
+        return accessibility(f,                                                          \
+                             (crv__shape){.layers = p->layers,                           \
+                                          .solid = p->layers_solid,                      \
+                                          .orthographic = p->orthographic},              \
+                             at);                                                        \
     }                                                                                    \
     void CRV__NAME(name)(const crv__frame *f, int32_t x0, int32_t x1, int32_t y,         \
                          float *out);                                                    \
@@ -307,25 +290,6 @@ CRV__INLINE void crv__estimate_row(const crv__frame *f, int32_t x0, int32_t x1, 
                          float *out)                                                     \
     {                                                                                    \
         crv__estimate_row(f, x0, x1, y, out, scale, within, inner, border, general);     \
-    }
-
-/* The same, not rounded as the scalar code, of what is common. */
-#define CRV__LEAN_KERNEL(name, scale)                                                    \
-    CRV__NOINLINE vf inner_lean(const crv__frame *f, const crv__pixels *at)              \
-    {                                                                                    \
-        return accessibility(f, (crv__shape){.layers = 1, .within = 1, .lean = 1}, at);  \
-    }                                                                                    \
-    CRV__NOINLINE vf border_lean(const crv__frame *f, const crv__pixels *at)             \
-    {                                                                                    \
-        return accessibility(f, (crv__shape){.layers = 1, .lean = 1}, at);               \
-    }                                                                                    \
-    void CRV__NAME(name##_lean)(const crv__frame *f, int32_t x0, int32_t x1, int32_t y,  \
-                                float *out);                                             \
-    void CRV__NAME(name##_lean)(const crv__frame *f, int32_t x0, int32_t x1, int32_t y,  \
-                                float *out)                                              \
-    {                                                                                    \
-        crv__estimate_row(f, x0, x1, y, out, scale, within, inner_lean, border_lean,     \
-                          general);                                                      \
     }
 
 #endif

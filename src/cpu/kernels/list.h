@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What has a kernel in every instruction set: one line each. LEAN: see
- * crv__kernels; FAST: crv__fast_kind. */
+/* What has a kernel in every instruction set: one line each. FAST:
+ * crv__fast_kind. */
 CRV__ESTIMATE(alchemy)
 CRV__ESTIMATE(containment)
 CRV__ESTIMATE(hbao)
@@ -9,9 +9,6 @@ CRV__ESTIMATE(raymarch)
 CRV__ESTIMATE(ssao)
 CRV__ESTIMATE(vao)
 CRV__ESTIMATE(vo)
-CRV__LEAN(containment)
-CRV__LEAN(hsao)
-CRV__LEAN(raymarch)
 CRV__FILTER(bilateral13)
 CRV__FILTER(box4)
 CRV__FILTER(gauss5)

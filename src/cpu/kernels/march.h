@@ -66,45 +66,27 @@ CRV__INLINE int crv__lanes_within(const crv__params *p, crv__v3 P, vf reach, vm 
     return !vm_any(vm_and(active, vm_not(inside)));
 }
 
-/* A direction or a difference of points as lean kernels want it for crv__lanes_texels():
- * in pixels at unit depth, to the right and down. */
-CRV__INLINE crv__v3 crv__lanes_projected(const crv__params *p, crv__shape shape,
-                                         crv__v3 a)
-{
-    if (shape.lean) {
-        a.x = a.x * vf_set(p->fx);
-        a.y = a.y * vf_set(-p->fy);
-    }
-    return a;
-}
-
 /* Texels that points fall on. */
 typedef struct crv__texels {
     vi u, v;
     vm in; /* the lanes whose point is before the eye and on the buffers */
 } crv__texels;
 
-/* crv__texel_of(), Q as crv__lanes_projected() makes it. shape.within: no point of an
+/* crv__texel_of(). shape.within: no point of an
  * active lane leaves the buffers. */
 CRV__INLINE crv__texels crv__lanes_texels(const crv__params *p, crv__shape shape,
                                           crv__v3 Q, vm active)
 {
     const vf unit = -Q.z, cx = vf_set(p->cx), cy = vf_set(p->cy);
     crv__texels texels = {.in = active};
-    if (shape.lean) {
-        const vf inverse = vf_rcp(unit);
-        texels.u = vi_floor(vf_fma(Q.x, inverse, cx));
-        texels.v = vi_floor(vf_fma(Q.y, inverse, cy));
-    } else {
-        vf x = vf_set(p->fx) * Q.x, y = vf_set(p->fy) * Q.y;
-        if (!shape.orthographic) {
-            const vf inverse = vf_set(1) / unit;
-            x = x * inverse;
-            y = y * inverse;
-        }
-        texels.u = vi_floor(cx + x);
-        texels.v = vi_floor(cy - y);
+    vf x = vf_set(p->fx) * Q.x, y = vf_set(p->fy) * Q.y;
+    if (!shape.orthographic) {
+        const vf inverse = vf_set(1) / unit;
+        x = x * inverse;
+        y = y * inverse;
     }
+    texels.u = vi_floor(cx + x);
+    texels.v = vi_floor(cy - y);
     if (!shape.within) {
         const vm on = vm_and(vi_below(texels.u, vi_set(p->width)),
                              vi_below(texels.v, vi_set(p->height)));
@@ -133,7 +115,6 @@ typedef struct crv__look {
                */
 } crv__look;
 
-/* Q as crv__lanes_projected() makes it. */
 CRV__INLINE void crv__lanes_look(const crv__frame *f, crv__shape shape, crv__v3 Q,
                                  vm active, crv__look *look)
 {
@@ -152,45 +133,16 @@ CRV__INLINE void crv__lanes_look(const crv__frame *f, crv__shape shape, crv__v3 
     }
 }
 
-/* From a walk's origin to the surface point at a texel. `aside`: of the image plane's
- * points at unit depth, where the texel (0, 0) has its centre. */
-CRV__INLINE crv__v3 crv__lanes_to(const crv__params *p, crv__shape shape, crv__v3 origin,
-                                  const float aside[2], vi u, vi v, vf d)
-{
-    if (!shape.lean)
-        return crv__v3_sub(crv__lanes_unproject_at(p, shape, u, v, d), origin);
-    const vf x = vf_fma(vf_of(u), vf_set(p->inv_fx), vf_set(aside[0]));
-    const vf y = vf_fma(vf_of(v), vf_set(-p->inv_fy), vf_set(aside[1]));
-    return (crv__v3){vf_fma(x, d, -origin.x), vf_fma(y, d, -origin.y), -d - origin.z};
-}
-
-/* What a walk needs of the parameters at every step. */
-typedef struct crv__walk {
-    const crv__frame *frame;
-    crv__v3 origin;
-    float aside[2], radius2; /* see crv__lanes_to() */
-} crv__walk;
-
-CRV__INLINE crv__walk crv__walk_from(const crv__frame *f, crv__v3 origin)
-{
-    const crv__params *p = f->params;
-    return (crv__walk){f,
-                       origin,
-                       {(0.5f - p->cx) * p->inv_fx, (p->cy - 0.5f) * p->inv_fy},
-                       p->radius * p->radius};
-}
-
 /* crv__blocked() of a point whose look is open in some lane. *to: from the origin to the
  * surface point; *squared: its length. Both hold anything where not blocked. */
-CRV__INLINE vm crv__lanes_blocked(const crv__walk *walk, crv__shape shape,
+CRV__INLINE vm crv__lanes_blocked(const crv__frame *f, crv__shape shape, crv__v3 origin,
                                   const crv__look *look, crv__v3 *to, vf *squared)
 {
-    const crv__frame *f = walk->frame;
     const crv__params *p = f->params;
-    const vf radius2 = vf_set(walk->radius2);
-    *to =
-        crv__lanes_to(p, shape, walk->origin, walk->aside, look->u, look->v, look->front);
-    *squared = crv__lanes_dot(shape, *to, *to);
+    const vf radius2 = vf_set(p->radius * p->radius);
+    *to = crv__v3_sub(crv__lanes_unproject_at(p, shape, look->u, look->v, look->front),
+                      origin);
+    *squared = crv__v3_dot(*to, *to);
     if (shape.layers == 1)
         return vm_and(look->open, vf_lt(*squared, radius2));
 
@@ -203,8 +155,8 @@ CRV__INLINE vm crv__lanes_blocked(const crv__walk *walk, crv__shape shape,
             crv__lanes_back(f, shape, layer, index, behind, d, vf_set(p->thickness));
         behind = vm_and(behind, vf_lt(look->depth, back));
         const crv__v3 v =
-            crv__lanes_to(p, shape, walk->origin, walk->aside, look->u, look->v, d);
-        const vf length2 = crv__lanes_dot(shape, v, v);
+            crv__v3_sub(crv__lanes_unproject_at(p, shape, look->u, look->v, d), origin);
+        const vf length2 = crv__v3_dot(v, v);
         behind = vm_and(behind, vf_lt(length2, radius2));
         to->x = vf_select(behind, v.x, to->x);
         to->y = vf_select(behind, v.y, to->y);
@@ -251,13 +203,9 @@ CRV__INLINE void crv__lanes_march(const crv__frame *f, crv__shape shape,
 {
     const crv__params *p = f->params;
     const vf infinity = vf_set(INFINITY);
-    const crv__walk walk = crv__walk_from(f, origin);
-    const crv__v3 start = crv__lanes_projected(p, shape, origin);
-    crv__v3 rays[CRV__WALKS];
     crv__look looks[CRV__WALKS];
     vm open[CRV__WALKS], any = at->active;
     for (int32_t k = 0; k < count; k++) {
-        rays[k] = crv__lanes_projected(p, shape, directions[k]);
         open[k] = at->active;
         weights[k] = infinity; /* at first the nearest squared distance */
     }
@@ -265,7 +213,7 @@ CRV__INLINE void crv__lanes_march(const crv__frame *f, crv__shape shape,
         const vf step = crv__lanes_step(p, at, i);
         for (int32_t k = 0; k < count; k++) {
             if (vm_any(open[k]))
-                crv__lanes_look(f, shape, crv__lanes_along(shape, start, rays[k], step),
+                crv__lanes_look(f, shape, crv__v3_add_scaled(origin, directions[k], step),
                                 open[k], &looks[k]);
         }
         any = vm_none();
@@ -274,7 +222,7 @@ CRV__INLINE void crv__lanes_march(const crv__frame *f, crv__shape shape,
                 crv__v3 to;
                 vf squared;
                 const vm blocked =
-                    crv__lanes_blocked(&walk, shape, &looks[k], &to, &squared);
+                    crv__lanes_blocked(f, shape, origin, &looks[k], &to, &squared);
                 weights[k] = vf_select(blocked, squared, weights[k]);
                 open[k] = vm_and(open[k], vm_not(blocked));
             }

@@ -6,8 +6,7 @@
 
 #include "cpu/kernels/march.h"
 
-/* The lanes of `active` whose point is not crv__outside_depth(), q as
- * crv__lanes_projected() makes it. */
+/* The lanes of `active` whose point is not crv__outside_depth(). */
 CRV__INLINE vm crv__lanes_inside(const crv__frame *f, crv__shape shape, crv__v3 q,
                                  vm active, float thickness)
 {

@@ -35,4 +35,3 @@ CRV__INLINE int within(const crv__frame *f, const crv__pixels *at)
 }
 
 CRV__ESTIMATE_KERNEL(raymarch, 1)
-CRV__LEAN_KERNEL(raymarch, 1)

@@ -5,14 +5,12 @@
 
 #define CRV__ESTIMATE(name)                                                              \
     void CRV__NAME(name)(const crv__frame *, int32_t, int32_t, int32_t, float *);
-#define CRV__LEAN(name) CRV__ESTIMATE(name##_lean)
 #define CRV__FILTER(name)                                                                \
     void CRV__NAME(name)(const crv__frame *, const crv__plane *, const crv__plane *,     \
                          crv__tile);
 #define CRV__FAST(name) extern const crv__fast_kind CRV__NAME(name##_fast);
 #include "cpu/kernels/list.h"
 #undef CRV__ESTIMATE
-#undef CRV__LEAN
 #undef CRV__FILTER
 #undef CRV__FAST
 
@@ -27,7 +25,6 @@ void CRV__NAME(normals_row)(const crv__params *, const crv__plane *, const crv__
 extern const crv__kernels CRV__NAME(kernels);
 const crv__kernels CRV__NAME(kernels) = {
 #define CRV__ESTIMATE(name) .estimates[CRV__METHOD_##name] = CRV__NAME(name),
-#define CRV__LEAN(name)     .lean[CRV__METHOD_##name] = CRV__NAME(name##_lean),
 #define CRV__FILTER(name)   .filters[CRV__FILTER_##name] = CRV__NAME(name),
 #define CRV__FAST(name)     .fast[CRV__METHOD_##name] = &CRV__NAME(name##_fast),
 #include "cpu/kernels/list.h"
