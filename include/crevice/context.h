@@ -60,9 +60,9 @@ typedef struct crv_context_desc {
     uint32_t isa_mask; /* bits 1u << crv_isa that may be used; the fastest of them that
                           is available is, and CRV_ISA_SCALAR where none is. 0 (default):
                           all */
-    /* CPU only. 1: sampling points exactly where the scalar code has them. 0 (default):
-     * kernels may move them a little, or round them otherwise, where that is faster and
-     * measured to be no worse. */
+    /* CPU only. 0 (default): hbao, alchemy and vo use deinterleaved kernels: up to 4
+     * times as fast; samples move by a part of a pixel's footprint, and errors are the
+     * same within 1 %. 1: samples are exactly where the scalar code has them. */
     int32_t exact;
     crv_device device;    /* default CRV_DEVICE_CPU */
     int32_t device_index; /* Vulkan: as crv_vulkan_device_info() counts; default 0 */

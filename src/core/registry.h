@@ -26,7 +26,7 @@ typedef struct crv__method {
 typedef struct crv__filter {
     crv_filter info;
     int32_t passes;
-    int32_t reach_px; /* a pixel of the result depends on input at most so far away */
+    int32_t radius_px; /* a pixel of the result depends on input at most this far away */
     /* The specification: the pixel (x, y), which is not background, of a pass. input
      * holds the estimate in the first pass and the output of the pass before in the
      * others. */

@@ -143,11 +143,11 @@ static int32_t least(int32_t a, int32_t b)
 crv__rectangle crv__setup_rectangle(const crv__setup *setup)
 {
     const crv_gbuffer_desc *d = &setup->desc;
-    const int32_t reach = setup->filter ? setup->filter->reach_px : 0;
-    const int32_t x0 = d->guard_left - least(d->guard_left, reach);
-    const int32_t y0 = d->guard_top - least(d->guard_top, reach);
-    const int32_t x1 = d->width - d->guard_right + least(d->guard_right, reach);
-    const int32_t y1 = d->height - d->guard_bottom + least(d->guard_bottom, reach);
+    const int32_t radius_px = setup->filter ? setup->filter->radius_px : 0;
+    const int32_t x0 = d->guard_left - least(d->guard_left, radius_px);
+    const int32_t y0 = d->guard_top - least(d->guard_top, radius_px);
+    const int32_t x1 = d->width - d->guard_right + least(d->guard_right, radius_px);
+    const int32_t y1 = d->height - d->guard_bottom + least(d->guard_bottom, radius_px);
     return (crv__rectangle){x0, y0, x1 - x0, y1 - y0};
 }
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* The CPU backend: walks tiles in parallel and computes their rows with the kernels of
+/* The CPU backend: visits tiles in parallel and computes their rows with the kernels of
  * the best instruction set, or pixel by pixel with the specification.
  */
 #include "core/backend.h"
-#include "cpu/fast.h"
+#include "cpu/deinterleaved.h"
 #include "cpu/isa.h"
 
 #include <math.h>
@@ -14,9 +14,9 @@ enum {
     TILE_WIDTH = 128,
     TILE_HEIGHT = 32,
     TILE_STRIP = 8,
-    FAST_TILE_GROUPS = CRV__FAST_TILE_GROUPS,
-    FAST_TILE_HEIGHT = CRV__FAST_TILE_ROWS * CRV__FAST_PHASES,
-    FAST_TILE_STRIP = 4
+    GROUP_TILE_WIDTH = CRV__TILE_GROUPS,
+    GROUP_TILE_HEIGHT = CRV__TILE_ROWS * CRV__PHASES,
+    GROUP_TILE_STRIP = 4
 };
 
 typedef struct tiles {
@@ -25,8 +25,9 @@ typedef struct tiles {
     const crv__filter *filter;
     crv__estimate_kernel estimate_kernel; /* NULL: the specification */
     crv__filter_kernel filter_kernel;
-    crv__fast_kernel fast_kernel; /* with fast: for groups rather than tiles of pixels */
-    const crv__fast *fast;
+    crv__deinterleaved_kernel
+        group_kernel; /* with di: for groups rather than tiles of pixels */
+    const crv__deinterleaved *di;
     int32_t pass;
     const crv__plane *input, *out;
     int32_t columns, rows;
@@ -74,7 +75,7 @@ static void filter_row(const tiles *t, int32_t x0, int32_t x1, int32_t y, float 
 }
 
 /* The column and row of a tile by its number. They are visited in strips from the top to
- * the bottom: what the samples of a row of tiles reach is read again by the next, and of
+ * the bottom: what the samples of a row of tiles read is read again by the next, and of
  * a wide picture's whole row it would not stay in the cache until then. */
 static void tile_place(uint32_t index, int32_t columns, int32_t rows, int32_t strip,
                        int32_t *column, int32_t *row)
@@ -114,7 +115,7 @@ static void run_tiles(tiles *t)
 typedef struct plan_state {
     crv__estimate_kernel estimate;
     crv__filter_kernel filter;
-    crv__fast_state *fast;
+    crv__deinterleaved_state *di;
 } plan_state;
 
 /* Kernels know nothing of fields. */
@@ -124,45 +125,45 @@ static const plan_state *state_of(const crv__work *work)
     return work->frame->params->use_field ? &SPECIFICATION : work->state;
 }
 
-/* The pixels of a row whose radius is beyond the fast structure's table. */
+/* The pixels of a row whose radius is beyond the deinterleaved structure's table. */
 static void mend_row(const tiles *t, int32_t x0, int32_t x1, int32_t y, float *out)
 {
-    float exact[CRV__FAST_SPAN];
-    for (int32_t x = x0; x < x1; x += CRV__FAST_SPAN) {
-        const int32_t end = x + CRV__FAST_SPAN < x1 ? x + CRV__FAST_SPAN : x1;
+    float exact[CRV__GROUP_SPAN];
+    for (int32_t x = x0; x < x1; x += CRV__GROUP_SPAN) {
+        const int32_t end = x + CRV__GROUP_SPAN < x1 ? x + CRV__GROUP_SPAN : x1;
         const float *depth = crv__plane_at(&t->work->frame->depth[0], x, y);
         estimate_row(t, x, end, y, exact);
         for (int32_t i = 0; i < end - x; i++) {
-            if (crv__fast_is_beyond(t->fast, t->work->frame->params, depth[i]))
+            if (crv__deinterleaved_is_beyond(t->di, t->work->frame->params, depth[i]))
                 out[x - x0 + i] = exact[i];
         }
     }
 }
 
 /* A tile of groups: rows of the same phase at once, which share their lists. */
-static void run_fast_tile(void *data, uint32_t index)
+static void run_group_tile(void *data, uint32_t index)
 {
     const tiles *t = data;
     const crv__plane *out = t->out;
     const crv__params *p = t->work->frame->params;
-    const int32_t left = (out->x0 + t->fast->left) / CRV__FAST_SPAN;
+    const int32_t left = (out->x0 + t->di->left) / CRV__GROUP_SPAN;
     const int32_t end =
-        (out->x0 + out->width + t->fast->left + CRV__FAST_SPAN - 1) / CRV__FAST_SPAN;
+        (out->x0 + out->width + t->di->left + CRV__GROUP_SPAN - 1) / CRV__GROUP_SPAN;
     int32_t column, row;
-    tile_place(index, t->columns, t->rows, FAST_TILE_STRIP, &column, &row);
-    const int32_t first = left + column * FAST_TILE_GROUPS;
-    const int32_t last = first + FAST_TILE_GROUPS < end ? first + FAST_TILE_GROUPS : end;
-    const int32_t y0 = out->y0 + row * FAST_TILE_HEIGHT;
+    tile_place(index, t->columns, t->rows, GROUP_TILE_STRIP, &column, &row);
+    const int32_t first = left + column * GROUP_TILE_WIDTH;
+    const int32_t last = first + GROUP_TILE_WIDTH < end ? first + GROUP_TILE_WIDTH : end;
+    const int32_t y0 = out->y0 + row * GROUP_TILE_HEIGHT;
     const int32_t bottom = out->y0 + out->height;
-    const int32_t y1 = y0 + FAST_TILE_HEIGHT < bottom ? y0 + FAST_TILE_HEIGHT : bottom;
-    const int32_t from = first * CRV__FAST_SPAN - t->fast->left;
-    const int32_t to = last * CRV__FAST_SPAN - t->fast->left;
+    const int32_t y1 = y0 + GROUP_TILE_HEIGHT < bottom ? y0 + GROUP_TILE_HEIGHT : bottom;
+    const int32_t from = first * CRV__GROUP_SPAN - t->di->left;
+    const int32_t to = last * CRV__GROUP_SPAN - t->di->left;
     const int32_t x0 = from > out->x0 ? from : out->x0;
     const int32_t x1 = to < out->x0 + out->width ? to : out->x0 + out->width;
-    for (int32_t i = 0; i < CRV__FAST_PHASES && y0 + i < y1; i++) {
-        const crv__fast_tile tile = {first, last, y0 + i, y1};
-        const int beyond = t->fast_kernel(t->work->frame, t->fast, &tile, out);
-        for (int32_t y = y0 + i; y < y1; y += CRV__FAST_PHASES) {
+    for (int32_t i = 0; i < CRV__PHASES && y0 + i < y1; i++) {
+        const crv__group_tile tile = {first, last, y0 + i, y1};
+        const int beyond = t->group_kernel(t->work->frame, t->di, &tile, out);
+        for (int32_t y = y0 + i; y < y1; y += CRV__PHASES) {
             float *result = crv__plane_at(out, x0, y);
             for (int32_t x = 0; x < x1 - x0 && p->contrast != 1; x++)
                 result[x] = powf(result[x], p->contrast);
@@ -172,16 +173,16 @@ static void run_fast_tile(void *data, uint32_t index)
     }
 }
 
-static void run_fast_tiles(tiles *t)
+static void run_group_tiles(tiles *t)
 {
     const crv__plane *out = t->out;
-    const int32_t left = (out->x0 + t->fast->left) / CRV__FAST_SPAN;
+    const int32_t left = (out->x0 + t->di->left) / CRV__GROUP_SPAN;
     const int32_t end =
-        (out->x0 + out->width + t->fast->left + CRV__FAST_SPAN - 1) / CRV__FAST_SPAN;
-    t->columns = (end - left + FAST_TILE_GROUPS - 1) / FAST_TILE_GROUPS;
-    t->rows = (out->height + FAST_TILE_HEIGHT - 1) / FAST_TILE_HEIGHT;
+        (out->x0 + out->width + t->di->left + CRV__GROUP_SPAN - 1) / CRV__GROUP_SPAN;
+    t->columns = (end - left + GROUP_TILE_WIDTH - 1) / GROUP_TILE_WIDTH;
+    t->rows = (out->height + GROUP_TILE_HEIGHT - 1) / GROUP_TILE_HEIGHT;
     crv__run_parallel(t->work->setup->context, (uint32_t)t->columns * (uint32_t)t->rows,
-                      run_fast_tile, t);
+                      run_group_tile, t);
 }
 
 static void estimate(const crv__work *work, const crv__plane *out)
@@ -193,10 +194,10 @@ static void estimate(const crv__work *work, const crv__plane *out)
                .estimate_kernel = state->estimate,
                .out = out,
                .row = estimate_row};
-    if (state->fast) {
-        t.fast = crv__fast_prepare(state->fast, work->setup, work->frame);
-        t.fast_kernel = crv__fast_kernel_of(state->fast);
-        run_fast_tiles(&t);
+    if (state->di) {
+        t.di = crv__deinterleaved_prepare(state->di, work->setup, work->frame);
+        t.group_kernel = crv__deinterleaved_kernel_of(state->di);
+        run_group_tiles(&t);
     } else {
         run_tiles(&t);
     }
@@ -277,7 +278,7 @@ static crv_status plan_create(const crv__setup *setup, const crv__plane *rectang
     crv_status status = CRV_ERROR_OUT_OF_MEMORY;
     if (state) {
         choose_kernels(setup, rectangle, state);
-        status = crv__fast_create(setup, &state->fast);
+        status = crv__deinterleaved_create(setup, &state->di);
     }
     if (status == CRV_OK) {
         *out = state;
@@ -291,14 +292,14 @@ static crv_status plan_create(const crv__setup *setup, const crv__plane *rectang
 static void plan_destroy(const crv__setup *setup, void *data)
 {
     plan_state *state = data;
-    crv__fast_destroy(setup, state->fast);
+    crv__deinterleaved_destroy(setup, state->di);
     crv__release(&setup->context->allocator, state, 1, sizeof *state);
 }
 
 static bool plan_update(const crv__setup *setup, void *data)
 {
     plan_state *state = data;
-    if (!crv__fast_update(setup, state->fast))
+    if (!crv__deinterleaved_update(setup, state->di))
         return false;
     if (state->filter)
         state->filter =

@@ -45,5 +45,5 @@ const crv__filter crv__filter_bilateral13 = {
                       "Ambient Obscurance Algorithm",
              .options = OPTIONS},
     .passes = 2,
-    .reach_px = REACH,
+    .radius_px = REACH,
     .filter = filter};

@@ -40,5 +40,5 @@ const crv__filter crv__filter_box4 = {
              "Occlusion for Real-Time Rendering and Games",
          .options = OPTIONS},
     .passes = 1,
-    .reach_px = 2,
+    .radius_px = 2,
     .filter = filter};

@@ -43,5 +43,5 @@ const crv__filter crv__filter_gauss5 = {
              .paper = "Dimitrov, Bavoil, Sainz 2008: Horizon-Split Ambient Occlusion",
              .options = OPTIONS},
     .passes = 1,
-    .reach_px = REACH,
+    .radius_px = REACH,
     .filter = filter};

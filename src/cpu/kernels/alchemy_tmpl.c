@@ -65,7 +65,7 @@ CRV__INLINE vf terms(const crv__frame *f, crv__shape shape, const crv__pixels *a
             to.y = y * d - eye->P.y;
         }
         const vf squared = vf_fma(to.x, to.x, vf_fma(to.y, to.y, to.z * to.z));
-        /* Background is infinitely far. A layer behind may lie within the radius. */
+        /* Background is infinitely far away. A layer behind may lie within the radius. */
         const vm in = vm_and(open, vf_le(squared, radius2));
         const vf along =
             vf_fma(to.x, n.x, vf_fma(to.y, n.y, vf_fma(to.z, n.z, -eye->bias)));

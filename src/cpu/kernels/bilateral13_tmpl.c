@@ -3,12 +3,12 @@
  * that depth and normals come from memory once. */
 #include "cpu/kernels/block.h"
 
-enum { REACH = 6 };
+enum { RADIUS = 6 };
 
-static const float GAUSS[REACH + 1] = {1.0f,        0.94595947f, 0.80073740f, 0.60653066f,
-                                       0.41111229f, 0.24935221f, 0.13533528f};
+static const float GAUSS[RADIUS + 1] = {
+    1.0f, 0.94595947f, 0.80073740f, 0.60653066f, 0.41111229f, 0.24935221f, 0.13533528f};
 
-static const float STEPS[REACH + 1] = {0, 1, 2, 3, 4, 5, 6};
+static const float STEPS[RADIUS + 1] = {0, 1, 2, 3, 4, 5, 6};
 
 typedef struct sums {
     vf values, weights;
@@ -17,7 +17,7 @@ typedef struct sums {
 CRV__INLINE vf filter(const crv__window *w, int32_t step_x, int32_t step_y)
 {
     vf sum = vf_zero(), weights = vf_zero();
-    for (int32_t k = -REACH; k <= REACH; k++) {
+    for (int32_t k = -RADIUS; k <= RADIUS; k++) {
         const crv__taps tap = crv__taps_at(w, k * step_x, k * step_y);
         const vf proximity = vf_max(vf_set(1) - tap.deviation, vf_zero());
         const vf weight = vf_set(GAUSS[k < 0 ? -k : k]) * proximity * tap.likeness;
@@ -61,9 +61,9 @@ CRV__INLINE vf weigh(const crv__limits *limits, const crv__centre *c, vf expecte
                : proximity;
 }
 
-/* Filters along a line of texels so many floats apart, in the planes of the G-buffer and
- * in that of the values. The centre weighs 1, unless it has no normal, as nonsense in the
- * depth may make it. */
+/* Filters along a line of texels; the strides between them, in floats, in the planes of
+ * the G-buffer and in that of the values. The centre weighs 1, unless it has no normal,
+ * as nonsense in the depth may make it. */
 CRV__INLINE void line(const crv__block *b, const crv__limits *limits,
                       const crv__centre *c, vf slope, ptrdiff_t step,
                       ptrdiff_t value_step, float *out, int with_normals)
@@ -72,7 +72,7 @@ CRV__INLINE void line(const crv__block *b, const crv__limits *limits,
     vf weights = with_normals ? vf_max(crv__block_likeness(limits, c, &own), vf_zero())
                               : vf_set(1);
     vf values = weights * own.value;
-    for (int32_t k = 1; k <= REACH; k++) {
+    for (int32_t k = 1; k <= RADIUS; k++) {
         const vf gauss = vf_set(crv__unhoisted(GAUSS)[k]);
         const vf change = vf_set(crv__unhoisted(STEPS)[k]) * slope;
         const crv__texel before = crv__block_texel(b, -k * step, -k * value_step),
@@ -106,20 +106,25 @@ CRV__BLOCK_RUN(across_run, across_block, 1)
 
 CRV__BLOCK_RUN(down_run, down_block, 1)
 
-static const crv__filter_ways ACROSS = {1, REACH, 0, across_run, across_slowly};
-static const crv__filter_ways DOWN = {1, 0, REACH, down_run, down_slowly};
+static const crv__filter_ways ACROSS = {.rows = 1,
+                                        .radius_x = RADIUS,
+                                        .radius_y = 0,
+                                        .run = across_run,
+                                        .pixels = across_slowly};
+static const crv__filter_ways DOWN = {
+    .rows = 1, .radius_x = 0, .radius_y = RADIUS, .run = down_run, .pixels = down_slowly};
 
 void CRV__NAME(bilateral13)(const crv__frame *f, const crv__plane *input,
                             const crv__plane *out, crv__tile tile);
 void CRV__NAME(bilateral13)(const crv__frame *f, const crv__plane *input,
                             const crv__plane *out, crv__tile tile)
 {
-    enum { PITCH = CRV__FILTER_TILE_WIDTH, ROWS = CRV__FILTER_TILE_HEIGHT + 2 * REACH };
+    enum { PITCH = CRV__FILTER_TILE_WIDTH, ROWS = CRV__FILTER_TILE_HEIGHT + 2 * RADIUS };
     _Alignas(64) float rows[ROWS * PITCH];
     const int32_t bottom = input->y0 + input->height;
     crv__tile wide = tile;
-    wide.y0 = tile.y0 - REACH > input->y0 ? tile.y0 - REACH : input->y0;
-    wide.y1 = tile.y1 + REACH < bottom ? tile.y1 + REACH : bottom;
+    wide.y0 = tile.y0 - RADIUS > input->y0 ? tile.y0 - RADIUS : input->y0;
+    wide.y1 = tile.y1 + RADIUS < bottom ? tile.y1 + RADIUS : bottom;
     const crv__plane between = {
         rows, PITCH, tile.x0, wide.y0, tile.x1 - tile.x0, wide.y1 - wide.y0};
     crv__filter_pass(f, input, &between, wide, &ACROSS);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The fast way through a filter: blocks of two rows of a vector each, whose windows lie
+ * The di way through a filter: blocks of two rows of a vector each, whose windows lie
  * within the input. What the rows read at one offset is loaded once for both, and
  * nothing is tested: the depth of background is infinite, which brings any weight to 0.
  */
@@ -103,7 +103,7 @@ CRV__INLINE const float *crv__unhoisted(const float *table)
     return table;
 }
 
-/* The texels so many floats from the block's. */
+/* The texels `offset` floats from the block's. */
 CRV__INLINE crv__texel crv__block_texel(const crv__block *b, ptrdiff_t at,
                                         ptrdiff_t value_at)
 {
@@ -113,7 +113,7 @@ CRV__INLINE crv__texel crv__block_texel(const crv__block *b, ptrdiff_t at,
                          vf_load(b->normal[2] + at)}};
 }
 
-/* Asks for what the same block so many rows further down will read. */
+/* Prefetches what the same block `rows` rows further down will read. */
 CRV__INLINE void crv__block_prefetch(const crv__block *b, int32_t rows)
 {
     __builtin_prefetch(b->depth + rows * b->pitch);
@@ -122,7 +122,7 @@ CRV__INLINE void crv__block_prefetch(const crv__block *b, int32_t rows)
         __builtin_prefetch(b->normal[i] + rows * b->pitch);
 }
 
-/* To the next row, or back up so many and a column on. */
+/* Moves by rows and columns. */
 CRV__INLINE void crv__block_move(crv__block *b, int32_t rows, int32_t columns)
 {
     b->depth += rows * b->pitch + columns;
@@ -166,9 +166,10 @@ CRV__INLINE int crv__block_is_empty(const crv__block *b, int32_t rows)
 }
 
 /* A filter's two ways: `run` for `count` blocks of `rows` rows side by side, whose
- * windows reach so far and lie within the input; `pixels` for where that cannot be. */
+ * windows have this radius and lie within the input; `pixels` for where that cannot be.
+ */
 typedef struct crv__filter_ways {
-    int32_t rows, reach_x, reach_y;
+    int32_t rows, radius_x, radius_y;
     void (*run)(const crv__frame *f, const crv__block *first, int32_t count, float *out,
                 ptrdiff_t out_pitch);
     void (*pixels)(const crv__frame *f, const crv__plane *input, int32_t x, int32_t y,
@@ -207,10 +208,10 @@ typedef struct crv__filter_ways {
     }
 
 enum {
-    CRV__EDGE_REACH = 6, /* of any filter */
-    CRV__EDGE_LEFT = 16, /* as much or more, and the block stays aligned */
+    CRV__EDGE_RADIUS = 6, /* of any filter */
+    CRV__EDGE_LEFT = 16,  /* as much or more, and the block stays aligned */
     CRV__EDGE_PITCH = 2 * CRV__EDGE_LEFT + CRV__LANES,
-    CRV__EDGE_ROWS = CRV__BLOCK_ROWS + 2 * CRV__EDGE_REACH
+    CRV__EDGE_ROWS = CRV__BLOCK_ROWS + 2 * CRV__EDGE_RADIUS
 };
 
 /* A block of its own with background around the input. */
@@ -238,8 +239,8 @@ CRV__INLINE void crv__edge_copy(const crv__plane *plane, int32_t x, int32_t y, f
 CRV__INLINE int crv__edge_is_outer(const crv__plane *depth, const crv__plane *input,
                                    int32_t x, int32_t y, const crv__filter_ways *ways)
 {
-    const int32_t left = x - ways->reach_x, right = x + CRV__LANES + ways->reach_x;
-    const int32_t top = y - ways->reach_y, bottom = y + ways->rows + ways->reach_y;
+    const int32_t left = x - ways->radius_x, right = x + CRV__LANES + ways->radius_x;
+    const int32_t top = y - ways->radius_y, bottom = y + ways->rows + ways->radius_y;
     const int32_t depth_right = depth->x0 + depth->width,
                   depth_bottom = depth->y0 + depth->height;
     const int32_t input_right = input->x0 + input->width,
@@ -261,15 +262,15 @@ CRV__NOINLINE void crv__edge_run(const crv__frame *f, const crv__plane *input,
     const crv__plane *planes[5] = {&f->depth[0], input, &f->normal[0], &f->normal[1],
                                    &f->normal[2]};
     for (int32_t i = 0; i < 5; i++) {
-        for (int32_t k = 0; k < ways->rows + 2 * ways->reach_y; k++)
-            crv__edge_copy(planes[i], x - CRV__EDGE_LEFT, y - ways->reach_y + k,
+        for (int32_t k = 0; k < ways->rows + 2 * ways->radius_y; k++)
+            crv__edge_copy(planes[i], x - CRV__EDGE_LEFT, y - ways->radius_y + k,
                            i == 0 ? INFINITY : 0, edge.plane[i][k]);
     }
-    const crv__block b = {&edge.plane[0][ways->reach_y][CRV__EDGE_LEFT],
-                          {&edge.plane[2][ways->reach_y][CRV__EDGE_LEFT],
-                           &edge.plane[3][ways->reach_y][CRV__EDGE_LEFT],
-                           &edge.plane[4][ways->reach_y][CRV__EDGE_LEFT]},
-                          &edge.plane[1][ways->reach_y][CRV__EDGE_LEFT],
+    const crv__block b = {&edge.plane[0][ways->radius_y][CRV__EDGE_LEFT],
+                          {&edge.plane[2][ways->radius_y][CRV__EDGE_LEFT],
+                           &edge.plane[3][ways->radius_y][CRV__EDGE_LEFT],
+                           &edge.plane[4][ways->radius_y][CRV__EDGE_LEFT]},
+                          &edge.plane[1][ways->radius_y][CRV__EDGE_LEFT],
                           CRV__EDGE_PITCH,
                           CRV__EDGE_PITCH};
     ways->run(f, &b, 1, result, CRV__LANES);
@@ -283,17 +284,17 @@ CRV__INLINE void crv__filter_pass(const crv__frame *f, const crv__plane *input,
                                   const crv__filter_ways *ways)
 {
     const int careful = f->params->filter_normal > CRV__SHARPEST;
-    const int32_t right = input->x0 + input->width - ways->reach_x;
+    const int32_t right = input->x0 + input->width - ways->radius_x;
     const int32_t end = right < r.x1 ? right : r.x1;
     int32_t first = r.x0;
-    while (first < input->x0 + ways->reach_x)
+    while (first < input->x0 + ways->radius_x)
         first += CRV__LANES;
     const int32_t count = careful || end <= first ? 0 : (end - first) / CRV__LANES;
     const int32_t last = first + count * CRV__LANES;
     for (int32_t y = r.y0; y < r.y1; y += ways->rows) {
         const int32_t rows = r.y1 - y < ways->rows ? r.y1 - y : ways->rows;
-        const int whole = count && rows == ways->rows && y - ways->reach_y >= input->y0
-                          && y + ways->reach_y + rows <= input->y0 + input->height;
+        const int whole = count && rows == ways->rows && y - ways->radius_y >= input->y0
+                          && y + ways->radius_y + rows <= input->y0 + input->height;
         if (whole) {
             const crv__block b = crv__block_at(f, input, first, y);
             ways->run(f, &b, count, crv__plane_at(out, first, y), out->pitch);

@@ -29,8 +29,8 @@ CRV__NOINLINE void slowly(const crv__frame *f, const crv__plane *input, int32_t 
     crv__filter_pixels(f, input, x, y, count, out, filter);
 }
 
-/* Adds the tap of a column to all that reach its row, counted from the block's first.
- * `level` is what the centres' depths become in that column. */
+/* Adds the tap of a column to all whose windows hold its row, counted from the block's
+ * first. `level` is what the centres' depths become in that column. */
 CRV__INLINE void add_tap(sums s[CRV__BLOCK_ROWS], const crv__limits *limits,
                          const crv__centre c[CRV__BLOCK_ROWS],
                          const vf level[CRV__BLOCK_ROWS], crv__block *at, int32_t row,
@@ -92,7 +92,11 @@ CRV__INLINE void block(const crv__block *b, const crv__limits *limits, float *ou
 
 CRV__BLOCK_RUN(run, block, CRV__BLOCK_ROWS)
 
-static const crv__filter_ways WAYS = {CRV__BLOCK_ROWS, -FIRST, -FIRST, run, slowly};
+static const crv__filter_ways WAYS = {.rows = CRV__BLOCK_ROWS,
+                                      .radius_x = -FIRST,
+                                      .radius_y = -FIRST,
+                                      .run = run,
+                                      .pixels = slowly};
 
 void CRV__NAME(box4)(const crv__frame *f, const crv__plane *input, const crv__plane *out,
                      crv__tile tile);

@@ -2,10 +2,11 @@
 /* filters/gauss5.c for the lanes of a vector. */
 #include "cpu/kernels/block.h"
 
-enum { REACH = 2 };
+enum { RADIUS = 2 };
 
 /* By distances in columns and rows. */
-static const float BINOMIAL[(REACH + 1) * (REACH + 1)] = {36, 24, 6, 24, 16, 4, 6, 4, 1};
+static const float BINOMIAL[(RADIUS + 1) * (RADIUS + 1)] = {36, 24, 6, 24, 16,
+                                                            4,  6,  4, 1};
 
 typedef struct sums {
     vf values, weights;
@@ -14,11 +15,11 @@ typedef struct sums {
 CRV__INLINE vf filter(const crv__window *w)
 {
     vf sum = vf_zero(), weights = vf_zero();
-    for (int32_t dy = -REACH; dy <= REACH; dy++) {
-        for (int32_t dx = -REACH; dx <= REACH; dx++) {
+    for (int32_t dy = -RADIUS; dy <= RADIUS; dy++) {
+        for (int32_t dx = -RADIUS; dx <= RADIUS; dx++) {
             const crv__taps tap = crv__taps_at(w, dx, dy);
             const float binomial =
-                BINOMIAL[(dx < 0 ? -dx : dx) * (REACH + 1) + (dy < 0 ? -dy : dy)];
+                BINOMIAL[(dx < 0 ? -dx : dx) * (RADIUS + 1) + (dy < 0 ? -dy : dy)];
             const vf weight = vf_where(tap.any, vf_set(binomial) * tap.likeness
                                                     / (tap.deviation + vf_set(0.125f)));
             sum = vf_fma(weight, tap.value, sum);
@@ -34,10 +35,10 @@ CRV__NOINLINE void slowly(const crv__frame *f, const crv__plane *input, int32_t 
     crv__filter_pixels(f, input, x, y, count, out, filter);
 }
 
-/* Adds the tap of a column to all that reach its row, counted from the block's first.
- * `level` is what the centres' depths become in that column, binomial[] its weights by
- * distance in rows. The reciprocal's error is the same for all taps of the same
- * deviation. A NaN, where what is expected overflows, becomes the weight 0. */
+/* Adds the tap of a column to all whose windows hold its row, counted from the block's
+ * first. `level` is what the centres' depths become in that column, binomial[] its
+ * weights by distance in rows. The reciprocal's error is the same for all taps of the
+ * same deviation. A NaN, where what is expected overflows, becomes the weight 0. */
 CRV__INLINE void add_tap(sums s[CRV__BLOCK_ROWS], const crv__limits *limits,
                          const crv__centre c[CRV__BLOCK_ROWS],
                          const vf level[CRV__BLOCK_ROWS], const float *binomial,
@@ -47,7 +48,7 @@ CRV__INLINE void add_tap(sums s[CRV__BLOCK_ROWS], const crv__limits *limits,
 #define CENTRE(i)                                                                        \
     do {                                                                                 \
         const int32_t dy = row - (i);                                                    \
-        if (dy >= -REACH && dy <= REACH) {                                               \
+        if (dy >= -RADIUS && dy <= RADIUS) {                                             \
             const vf expected = crv__block_step(level[i], c[i].slope_y, dy);             \
             const vf off = vf_abs(tap.depth - expected);                                 \
             vf weight = vf_rcp_rough(vf_fma(off, limits->inv_depth, vf_set(0.125f)))     \
@@ -72,14 +73,14 @@ CRV__INLINE void add_column(sums s[CRV__BLOCK_ROWS], const crv__limits *limits,
     vf level[CRV__BLOCK_ROWS];
     for (int32_t i = 0; i < CRV__BLOCK_ROWS; i++)
         level[i] = crv__block_step(c[i].depth, c[i].slope_x, dx);
-    const float *binomial = crv__unhoisted(BINOMIAL) + (REACH + 1) * (dx < 0 ? -dx : dx);
+    const float *binomial = crv__unhoisted(BINOMIAL) + (RADIUS + 1) * (dx < 0 ? -dx : dx);
     add_tap(s, limits, c, level, binomial, at, -2, with_normals);
     add_tap(s, limits, c, level, binomial, at, -1, with_normals);
     add_tap(s, limits, c, level, binomial, at, 0, with_normals);
     add_tap(s, limits, c, level, binomial, at, 1, with_normals);
     add_tap(s, limits, c, level, binomial, at, 2, with_normals);
     add_tap(s, limits, c, level, binomial, at, 3, with_normals);
-    crv__block_move(at, -REACH - REACH - CRV__BLOCK_ROWS, 1);
+    crv__block_move(at, -RADIUS - RADIUS - CRV__BLOCK_ROWS, 1);
 }
 
 CRV__INLINE void block(const crv__block *b, const crv__limits *limits, float *out,
@@ -92,7 +93,7 @@ CRV__INLINE void block(const crv__block *b, const crv__limits *limits, float *ou
         s[i] = (sums){vf_zero(), vf_zero()};
     }
     crv__block at = *b;
-    crv__block_move(&at, -REACH, -REACH);
+    crv__block_move(&at, -RADIUS, -RADIUS);
     add_column(s, limits, c, &at, -2, with_normals);
     add_column(s, limits, c, &at, -1, with_normals);
     add_column(s, limits, c, &at, 0, with_normals);
@@ -104,7 +105,11 @@ CRV__INLINE void block(const crv__block *b, const crv__limits *limits, float *ou
 
 CRV__BLOCK_RUN(run, block, CRV__BLOCK_ROWS)
 
-static const crv__filter_ways WAYS = {CRV__BLOCK_ROWS, REACH, REACH, run, slowly};
+static const crv__filter_ways WAYS = {.rows = CRV__BLOCK_ROWS,
+                                      .radius_x = RADIUS,
+                                      .radius_y = RADIUS,
+                                      .run = run,
+                                      .pixels = slowly};
 
 void CRV__NAME(gauss5)(const crv__frame *f, const crv__plane *input,
                        const crv__plane *out, crv__tile tile);

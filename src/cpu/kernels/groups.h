@@ -1,32 +1,32 @@
 /* SPDX-License-Identifier: MIT */
-/* Walks the groups of a row for a method's kernel in the fast structure (fast.h). */
+/* Runs a method's deinterleaved kernel over the groups of a tile (deinterleaved.h). */
 #ifndef CRV_CPU_KERNELS_GROUPS_H
 #define CRV_CPU_KERNELS_GROUPS_H
 
-#include "cpu/kernels/fast.h"
+#include "cpu/kernels/deinterleaved.h"
 #include "cpu/kernels/lanes.h"
 
-typedef struct crv__fast_list {
-    const crv__fast_sample *samples;
-    const crv__fast_place *places;
+typedef struct crv__list {
+    const crv__sample *samples;
+    const crv__sample_place *places;
     const uint16_t *counts;
     float radius;
-} crv__fast_list;
+} crv__list;
 
 /* Some lanes of a group, a vector of them. */
-typedef struct crv__fast_pixels {
+typedef struct crv__group_pixels {
     const crv__frame *frame;
-    const crv__fast *fast;
+    const crv__deinterleaved *di;
     const float *own;  /* their place in layer 0 */
     int32_t y, m;      /* the group's row and column in its plane */
-    int32_t near;      /* whether samples may be off the picture */
+    int32_t at_border; /* whether samples may be off the picture */
     int32_t off;       /* where those are then, from `own` on */
     vf depth, inverse; /* planar depth, and 1 over it */
     vf ray_x, ray_y;   /* the view ray (x, y, -1), or (0, 0, -1) */
     crv__v3 n;
-} crv__fast_pixels;
+} crv__group_pixels;
 
-/* CRV__FAST_SPAN floats of a plane's row from x on, which may leave the plane; `fill`
+/* CRV__GROUP_SPAN floats of a plane's row from x on, which may leave the plane; `fill`
  * there. Lands in `room` or is read where it is. Asks for those `ahead` floats
  * on; 0: does not. */
 CRV__INLINE const float *crv__span_read(const crv__plane *plane, int32_t x, int32_t y,
@@ -34,12 +34,12 @@ CRV__INLINE const float *crv__span_read(const crv__plane *plane, int32_t x, int3
 {
     const float *row = crv__plane_at(plane, plane->x0, y);
     const int32_t at = x - plane->x0;
-    if (at >= 0 && at + CRV__FAST_SPAN <= plane->width) {
-        for (int32_t i = 0; ahead > 0 && i < CRV__FAST_SPAN; i += CRV__FAST_GROUP)
+    if (at >= 0 && at + CRV__GROUP_SPAN <= plane->width) {
+        for (int32_t i = 0; ahead > 0 && i < CRV__GROUP_SPAN; i += CRV__GROUP_PIXELS)
             __builtin_prefetch(row + at + ahead + i);
         return row + at;
     }
-    for (int32_t i = 0; i < CRV__FAST_SPAN; i++)
+    for (int32_t i = 0; i < CRV__GROUP_SPAN; i++)
         room[i] = at + i >= 0 && at + i < plane->width ? row[at + i] : fill;
     return room;
 }
@@ -52,25 +52,26 @@ CRV__INLINE vf crv__span_pick(const float *from, int32_t phase)
     return parts[phase];
 }
 
-/* The list of a bucket for a phase; sets whether `at` is near the border for it. */
-CRV__INLINE crv__fast_list crv__fast_list_at(crv__fast_pixels *at, int32_t bucket,
-                                             int32_t phase)
+/* The list of a bucket for a phase; sets whether `at` is at_border the border for it. */
+CRV__INLINE crv__list crv__list_at(crv__group_pixels *at, int32_t bucket, int32_t phase)
 {
-    const crv__fast *fast = at->fast;
-    const int32_t index = bucket * CRV__FAST_PHASES * CRV__FAST_PHASES + phase;
-    const ptrdiff_t first = (ptrdiff_t)index * (fast->walks * fast->steps);
-    const crv__fast_reach reach = fast->reaches[index];
-    at->near = at->y < reach.rows || at->y + reach.rows >= at->frame->params->height
-               || at->m + reach.shift_min <= -CRV__FAST_GROUP
-               || at->m + reach.shift_max >= fast->columns;
-    return (crv__fast_list){fast->samples + first, fast->places + first,
-                            fast->counts + (ptrdiff_t)index * fast->walks, reach.radius};
+    const crv__deinterleaved *di = at->di;
+    const int32_t index = bucket * CRV__PHASES * CRV__PHASES + phase;
+    const ptrdiff_t first = (ptrdiff_t)index * (di->slices * di->steps);
+    const crv__list_footprint footprint = di->footprints[index];
+    at->at_border = at->y < footprint.rows
+                    || at->y + footprint.rows >= at->frame->params->height
+                    || at->m + footprint.shift_min <= -CRV__GROUP_PIXELS
+                    || at->m + footprint.shift_max >= di->columns;
+    return (crv__list){di->samples + first, di->places + first,
+                       di->counts + (ptrdiff_t)index * di->slices, footprint.radius};
 }
 
 /* The least lane that is over `limit`, INT32_MAX where there is none. */
-CRV__INLINE int32_t crv__fast_least(vi a, int32_t limit)
+CRV__INLINE int32_t crv__least_lane(vi a, int32_t limit)
 {
-    /* How far below the most that an integer holds: what does not count comes out as 0.
+    /* How beyond below the most that an integer holds: what does not count comes out as
+     * 0.
      */
     const vi most = vi_set(INT32_MAX);
     const vi counts = vi_select(vi_lt(vi_set(limit), a), a, most);
@@ -80,13 +81,13 @@ CRV__INLINE int32_t crv__fast_least(vi a, int32_t limit)
 /* A bucket for the lanes from bucket `low` on, which is the lowest of those left, and how
  * high its lanes may be: three buckets share the middle one, two the one that has more
  * lanes. *next: the lowest bucket beyond, INT32_MAX where there is none. */
-CRV__INLINE int32_t crv__fast_choose(const int32_t *buckets, int32_t low, int32_t *high,
-                                     int32_t *next)
+CRV__INLINE int32_t crv__group_choose(const int32_t *buckets, int32_t low, int32_t *high,
+                                      int32_t *next)
 {
     int32_t lowest = 0, above = 0, third = 0, beyond = INT32_MAX;
-    for (int32_t i = 0; i < CRV__FAST_GROUP; i += CRV__LANES) {
+    for (int32_t i = 0; i < CRV__GROUP_PIXELS; i += CRV__LANES) {
         const vi own = vi_load(buckets + i);
-        const int32_t least = crv__fast_least(own, low + 2);
+        const int32_t least = crv__least_lane(own, low + 2);
         lowest += vm_count(vi_eq(own, vi_set(low)));
         above += vm_count(vi_eq(own, vi_set(low + 1)));
         third |= vm_any(vi_eq(own, vi_set(low + 2)));
@@ -98,18 +99,18 @@ CRV__INLINE int32_t crv__fast_choose(const int32_t *buckets, int32_t low, int32_
 }
 
 /* Where lanes have a sample, or the one opposite to it. Off the picture: background. */
-CRV__INLINE const float *crv__fast_from(const crv__fast_pixels *at,
-                                        const crv__fast_place *place, int32_t side,
-                                        int32_t near)
+CRV__INLINE const float *crv__sample_at(const crv__group_pixels *at,
+                                        const crv__sample_place *place, int32_t side,
+                                        int32_t at_border)
 {
     int32_t offset = place->offset[side];
-    if (near) {
+    if (at_border) {
         const int32_t v = at->y + (side ? -place->dv : place->dv);
-        const int32_t u = at->m + place->shift[side] + CRV__FAST_GROUP - 1;
-        const int32_t columns = at->fast->columns + CRV__FAST_GROUP - 1;
+        const int32_t u = at->m + place->shift[side] + CRV__GROUP_PIXELS - 1;
+        const int32_t columns = at->di->columns + CRV__GROUP_PIXELS - 1;
         const int on = ((uint32_t)v < (uint32_t)at->frame->params->height)
                        & ((uint32_t)u < (uint32_t)columns);
-        offset = at->off + ((offset - at->off) & -on); /* no branch to be foretold */
+        offset = at->off + ((offset - at->off) & -on); /* no branch to mispredict */
     }
     return at->own + offset;
 }
@@ -117,94 +118,92 @@ CRV__INLINE const float *crv__fast_from(const crv__fast_pixels *at,
 /* Lanes' depths of a sample. The phase's next group will read the next line and, in a
  * row's time, the group below it the one that is a row on: asking for them now, the
  * latter for the second level, hides misses. */
-CRV__INLINE vf crv__fast_read(const crv__fast_pixels *at, const float *from)
+CRV__INLINE vf crv__sample_depth(const crv__group_pixels *at, const float *from)
 {
     __builtin_prefetch(from + 31);
-    __builtin_prefetch(from + at->fast->pitch + 15, 0, 2);
+    __builtin_prefetch(from + at->di->pitch + 15, 0, 2);
     return vf_load(from);
 }
 
-typedef vf (*crv__fast_method)(const crv__fast_pixels *pixels,
-                               const crv__fast_list *list);
+typedef vf (*crv__group_method)(const crv__group_pixels *pixels, const crv__list *list);
 
 /* What is known of a group before its samples are read. */
-typedef struct crv__fast_group {
-    float inverses[CRV__FAST_GROUP]; /* 1 over the depths */
+typedef struct crv__group {
+    float inverses[CRV__GROUP_PIXELS]; /* 1 over the depths */
     /* of each lane; -1 without a surface, and beyond the table */
-    int32_t buckets[CRV__FAST_GROUP];
+    int32_t buckets[CRV__GROUP_PIXELS];
     int32_t low, high; /* of those from 0 on; low > high where there is none */
-} crv__fast_group;
+} crv__group;
 
 /* Returns whether there is a lane beyond the table. */
-CRV__INLINE int crv__fast_group_fill(crv__fast_group *group, const crv__fast *fast,
-                                     const crv__params *p, const float *depth,
-                                     int32_t phase)
+CRV__INLINE int crv__group_fill(crv__group *group, const crv__deinterleaved *di,
+                                const crv__params *p, const float *depth, int32_t phase)
 {
-    const vf radius = vf_set(p->radius * p->fy), background = vf_set(fast->background);
-    const vf cap = vf_set(fast->cap);
-    vm far = vm_none();
+    const vf radius = vf_set(p->radius * p->fy), background = vf_set(di->background);
+    const vf cap = vf_set(di->cap);
+    vm beyond = vm_none();
     int32_t low = INT32_MAX, high = -1;
-    for (int32_t i = 0; i < CRV__FAST_GROUP; i += CRV__LANES) {
+    for (int32_t i = 0; i < CRV__GROUP_PIXELS; i += CRV__LANES) {
         const vf d = vf_load(depth + i), inverse = vf_set(1) / d;
         const vf r = p->orthographic ? radius : radius * inverse;
-        const vf capped = vf_max(vf_min(r, cap) * vf_set(fast->scale[phase]),
-                                 vf_set(CRV__FAST_SMALLEST));
+        const vf capped = vf_max(vf_min(r, cap) * vf_set(di->scale[phase]),
+                                 vf_set(CRV__SMALLEST_RADIUS_PX));
         const vm surface = vf_lt(d, background);
-        const vm within = vf_lt(r, vf_set(fast->largest));
-        far = vm_or(far, vm_and(surface, vm_not(within)));
+        const vm within = vf_lt(r, vf_set(di->largest));
+        beyond = vm_or(beyond, vm_and(surface, vm_not(within)));
         const vi bucket =
-            (vf_bits(capped) - vi_set(CRV__FAST_SMALLEST_BITS)) >> fast->shift;
+            (vf_bits(capped) - vi_set(CRV__SMALLEST_RADIUS_BITS)) >> di->shift;
         const vi own = vi_select(vm_and(surface, within), bucket, vi_set(-1));
         vf_store(group->inverses + i, inverse);
         __builtin_memcpy(group->buckets + i, &own, sizeof own);
-        const int32_t largest = vi_largest(own), least = crv__fast_least(own, -1);
+        const int32_t largest = vi_largest(own), least = crv__least_lane(own, -1);
         high = largest > high ? largest : high;
         low = least < low ? least : low;
     }
     group->low = low;
     group->high = high;
-    return vm_any(far);
+    return vm_any(beyond);
 }
 
-CRV__INLINE crv__v3 crv__fast_normal_of(const float *const spans[3], int32_t px)
+CRV__INLINE crv__v3 crv__group_normal_of(const float *const spans[3], int32_t px)
 {
     return (crv__v3){crv__span_pick(spans[0], px), crv__span_pick(spans[1], px),
                      crv__span_pick(spans[2], px)};
 }
 
 /* Lanes from i on of a phase of spans. */
-CRV__INLINE crv__v3 crv__fast_normal(const float *const spans[3], int32_t px, int32_t i)
+CRV__INLINE crv__v3 crv__group_normal(const float *const spans[3], int32_t px, int32_t i)
 {
     const float *const at[3] = {spans[0] + 4 * i, spans[1] + 4 * i, spans[2] + 4 * i};
     switch (px) { /* so that each takes only its own from a span */
     case 0:
-        return crv__fast_normal_of(at, 0);
+        return crv__group_normal_of(at, 0);
     case 1:
-        return crv__fast_normal_of(at, 1);
+        return crv__group_normal_of(at, 1);
     case 2:
-        return crv__fast_normal_of(at, 2);
+        return crv__group_normal_of(at, 2);
     default:
-        return crv__fast_normal_of(at, 3);
+        return crv__group_normal_of(at, 3);
     }
 }
 
 /* One pass over a group: the lanes whose bucket is from low to high, with one list. */
-CRV__INLINE void crv__fast_pass(crv__fast_pixels *at, const crv__fast_list *list,
-                                const crv__fast_group *group, const float *depth,
-                                int32_t low, int32_t high, int32_t px, float *result,
-                                crv__fast_method method)
+CRV__INLINE void crv__group_pass(crv__group_pixels *at, const crv__list *list,
+                                 const crv__group *group, const float *depth, int32_t low,
+                                 int32_t high, int32_t px, float *result,
+                                 crv__group_method method)
 {
     const crv__params *p = at->frame->params;
     const vf one = vf_set(1), intensity = vf_set(p->intensity);
-    const int32_t x = at->m * CRV__FAST_PHASES - at->fast->left + px;
-    float room[3][CRV__FAST_SPAN];
+    const int32_t x = at->m * CRV__PHASES - at->di->left + px;
+    float room[3][CRV__GROUP_SPAN];
     const float *normal[3];
     for (int32_t i = 0; i < 3; i++) {
         const crv__plane *plane = &at->frame->normal[i];
         normal[i] = crv__span_read(plane, x - px, at->y, 0, room[i],
-                                   px == 0 ? CRV__FAST_PHASES * plane->pitch : 0);
+                                   px == 0 ? CRV__PHASES * plane->pitch : 0);
     }
-    for (int32_t i = 0; i < CRV__FAST_GROUP; i += CRV__LANES) {
+    for (int32_t i = 0; i < CRV__GROUP_PIXELS; i += CRV__LANES) {
         const vi bucket = vi_load(group->buckets + i);
         const vm mine =
             vm_and(vi_lt(vi_set(low - 1), bucket), vi_lt(bucket, vi_set(high + 1)));
@@ -213,7 +212,7 @@ CRV__INLINE void crv__fast_pass(crv__fast_pixels *at, const crv__fast_list *list
         at->own = depth + i;
         at->depth = vf_load(depth + i);
         at->inverse = vf_load(group->inverses + i);
-        at->n = crv__fast_normal(normal, px, i);
+        at->n = crv__group_normal(normal, px, i);
         const vf column = vf_of(vi_set(x + 4 * i) + vi_iota() * vi_set(4));
         at->ray_x = p->orthographic ? vf_zero()
                                     : (column + vf_set(0.5f - p->cx)) * vf_set(p->inv_fx);
@@ -224,61 +223,61 @@ CRV__INLINE void crv__fast_pass(crv__fast_pixels *at, const crv__fast_list *list
 }
 
 /* All passes that a group takes. */
-CRV__INLINE void crv__fast_group_run(crv__fast_pixels *at, const crv__fast_group *group,
-                                     const float *depth, int32_t px, float *result,
-                                     crv__fast_method method)
+CRV__INLINE void crv__group_run(crv__group_pixels *at, const crv__group *group,
+                                const float *depth, int32_t px, float *result,
+                                crv__group_method method)
 {
-    const int32_t phase = ((at->y + at->fast->top) & 3) * CRV__FAST_PHASES + px;
+    const int32_t phase = ((at->y + at->di->top) & 3) * CRV__PHASES + px;
     int32_t low = group->low;
-    for (int32_t i = 0; i < CRV__FAST_GROUP; i += CRV__LANES)
+    for (int32_t i = 0; i < CRV__GROUP_PIXELS; i += CRV__LANES)
         vf_store(result + i, vf_set(1));
     while (low <= group->high) {
         int32_t chosen = low, top = low, next = INT32_MAX;
         if (group->high > low)
-            chosen = crv__fast_choose(group->buckets, low, &top, &next);
-        const crv__fast_list list = crv__fast_list_at(at, chosen, phase);
-        crv__fast_pass(at, &list, group, depth, low, top, px, result, method);
+            chosen = crv__group_choose(group->buckets, low, &top, &next);
+        const crv__list list = crv__list_at(at, chosen, phase);
+        crv__group_pass(at, &list, group, depth, low, top, px, result, method);
         low = next;
     }
 }
 
 /* A tile's results. While it is computed, a span holds its four phases one after the
  * other; those that leave the plane at its left or right are kept beside it. */
-typedef struct crv__fast_out {
+typedef struct crv__tile_out {
     const crv__plane *plane;
-    float edges[2][CRV__FAST_TILE_ROWS][CRV__FAST_SPAN];
-} crv__fast_out;
+    float edges[2][CRV__TILE_ROWS][CRV__GROUP_SPAN];
+} crv__tile_out;
 
 /* The span whose first column is x, in row y, the tile's `row`th. */
-CRV__INLINE float *crv__fast_span(crv__fast_out *out, int32_t x, int32_t y, int32_t row)
+CRV__INLINE float *crv__tile_span(crv__tile_out *out, int32_t x, int32_t y, int32_t row)
 {
     const crv__plane *plane = out->plane;
     if (x < plane->x0)
         return out->edges[0][row];
-    if (x + CRV__FAST_SPAN > plane->x0 + plane->width)
+    if (x + CRV__GROUP_SPAN > plane->x0 + plane->width)
         return out->edges[1][row];
     return crv__plane_at(plane, x, y);
 }
 
 /* Puts the four phases of a row's spans together. */
-CRV__INLINE void crv__fast_join(const crv__fast *fast, const crv__fast_tile *tile,
-                                crv__fast_out *out, int32_t y, int32_t row)
+CRV__INLINE void crv__tile_join(const crv__deinterleaved *di, const crv__group_tile *tile,
+                                crv__tile_out *out, int32_t y, int32_t row)
 {
     const crv__plane *plane = out->plane;
     for (int32_t group = tile->first; group < tile->last; group++) {
-        const int32_t x = group * CRV__FAST_SPAN - fast->left;
-        float *span = crv__fast_span(out, x, y, row), phases[CRV__FAST_SPAN];
-        for (int32_t i = 0; i < CRV__FAST_SPAN; i += CRV__LANES)
+        const int32_t x = group * CRV__GROUP_SPAN - di->left;
+        float *span = crv__tile_span(out, x, y, row), phases[CRV__GROUP_SPAN];
+        for (int32_t i = 0; i < CRV__GROUP_SPAN; i += CRV__LANES)
             vf_store(phases + i, vf_load(span + i));
-        for (int32_t i = 0; i < CRV__FAST_GROUP; i += CRV__LANES) {
+        for (int32_t i = 0; i < CRV__GROUP_PIXELS; i += CRV__LANES) {
             vf parts[4];
             for (int32_t px = 0; px < 4; px++)
-                parts[px] = vf_load(phases + px * CRV__FAST_GROUP + i);
+                parts[px] = vf_load(phases + px * CRV__GROUP_PIXELS + i);
             vf_join4(span + 4 * i, parts);
         }
-        if (x >= plane->x0 && x + CRV__FAST_SPAN <= plane->x0 + plane->width)
+        if (x >= plane->x0 && x + CRV__GROUP_SPAN <= plane->x0 + plane->width)
             continue;
-        for (int32_t i = 0; i < CRV__FAST_SPAN; i++) {
+        for (int32_t i = 0; i < CRV__GROUP_SPAN; i++) {
             if (x + i >= plane->x0 && x + i < plane->x0 + plane->width)
                 *crv__plane_at(plane, x + i, y) = span[i];
         }
@@ -286,65 +285,65 @@ CRV__INLINE void crv__fast_join(const crv__fast *fast, const crv__fast_tile *til
 }
 
 /* The groups of one row and phase. */
-CRV__INLINE int crv__fast_row(crv__fast_pixels *at, const crv__fast_tile *tile,
-                              int32_t px, int32_t row, crv__fast_out *out,
-                              crv__fast_method method)
+CRV__INLINE int crv__tile_row(crv__group_pixels *at, const crv__group_tile *tile,
+                              int32_t px, int32_t row, crv__tile_out *out,
+                              crv__group_method method)
 {
     const crv__params *p = at->frame->params;
-    const crv__fast *fast = at->fast;
-    const int32_t phase = ((at->y + fast->top) & 3) * CRV__FAST_PHASES + px;
-    const ptrdiff_t begin = crv__fast_index(fast, at->y, px, 0);
-    const float *depth = fast->depth + begin + tile->first * CRV__FAST_GROUP;
+    const crv__deinterleaved *di = at->di;
+    const int32_t phase = ((at->y + di->top) & 3) * CRV__PHASES + px;
+    const ptrdiff_t begin = crv__deinterleaved_index(di, at->y, px, 0);
+    const float *depth = di->depth + begin + tile->first * CRV__GROUP_PIXELS;
     const int32_t count = tile->last - tile->first;
-    crv__fast_group groups[CRV__FAST_TILE_GROUPS];
-    int far = 0;
+    crv__group groups[CRV__TILE_GROUPS];
+    int beyond = 0;
     at->ray_y = vf_set(p->orthographic ? 0 : -((float)at->y + 0.5f - p->cy) * p->inv_fy);
-    at->off = (int32_t)(CRV__FAST_PADDING - begin); /* the same column, before planes */
+    at->off = (int32_t)(CRV__ROW_PADDING - begin); /* the same column, before planes */
     /* All at once: one after the other they would wait for their divisions. */
     for (int32_t g = 0; g < count; g++)
-        far |=
-            crv__fast_group_fill(&groups[g], fast, p, depth + g * CRV__FAST_GROUP, phase);
+        beyond |=
+            crv__group_fill(&groups[g], di, p, depth + g * CRV__GROUP_PIXELS, phase);
     for (int32_t g = 0; g < count; g++) {
-        at->m = (tile->first + g) * CRV__FAST_GROUP;
-        float *span =
-            crv__fast_span(out, at->m * CRV__FAST_PHASES - fast->left, at->y, row);
-        crv__fast_group_run(at, &groups[g], depth + g * CRV__FAST_GROUP, px,
-                            span + px * CRV__FAST_GROUP, method);
+        at->m = (tile->first + g) * CRV__GROUP_PIXELS;
+        float *span = crv__tile_span(out, at->m * CRV__PHASES - di->left, at->y, row);
+        crv__group_run(at, &groups[g], depth + g * CRV__GROUP_PIXELS, px,
+                       span + px * CRV__GROUP_PIXELS, method);
     }
-    return far;
+    return beyond;
 }
 
-/* See crv__fast_kernel. */
-CRV__INLINE int crv__fast_run(const crv__frame *f, const crv__fast *fast,
-                              const crv__fast_tile *tile, const crv__plane *plane,
-                              crv__fast_method method)
+/* See crv__deinterleaved_kernel. */
+CRV__INLINE int crv__tile_run(const crv__frame *f, const crv__deinterleaved *di,
+                              const crv__group_tile *tile, const crv__plane *plane,
+                              crv__group_method method)
 {
-    crv__fast_pixels at;
-    crv__fast_out out;
-    int far = 0;
+    crv__group_pixels at;
+    crv__tile_out out;
+    int beyond = 0;
     at.frame = f;
-    at.fast = fast;
+    at.di = di;
     out.plane = plane;
-    for (int32_t px = 0; px < CRV__FAST_PHASES; px++) {
-        for (int32_t y = tile->y0, row = 0; y < tile->y1; y += CRV__FAST_PHASES, row++) {
+    for (int32_t px = 0; px < CRV__PHASES; px++) {
+        for (int32_t y = tile->y0, row = 0; y < tile->y1; y += CRV__PHASES, row++) {
             at.y = y;
-            far |= crv__fast_row(&at, tile, px, row, &out, method);
+            beyond |= crv__tile_row(&at, tile, px, row, &out, method);
         }
     }
-    for (int32_t y = tile->y0, row = 0; y < tile->y1; y += CRV__FAST_PHASES, row++)
-        crv__fast_join(fast, tile, &out, y, row);
-    return far;
+    for (int32_t y = tile->y0, row = 0; y < tile->y1; y += CRV__PHASES, row++)
+        crv__tile_join(di, tile, &out, y, row);
+    return beyond;
 }
 
 /* Defines a method's kernel from its static function accessibility(); what follows the
- * name are members of crv__fast_kind, designated. */
-#define CRV__FAST_KERNEL(name, ...)                                                      \
-    static int run(const crv__frame *f, const crv__fast *fast,                           \
-                   const crv__fast_tile *tile, const crv__plane *out)                    \
+ * name are members of crv__deinterleaved_method, designated. */
+#define CRV__DEINTERLEAVED_KERNEL(name, ...)                                             \
+    static int run(const crv__frame *f, const crv__deinterleaved *di,                    \
+                   const crv__group_tile *tile, const crv__plane *out)                   \
     {                                                                                    \
-        return crv__fast_run(f, fast, tile, out, accessibility);                         \
+        return crv__tile_run(f, di, tile, out, accessibility);                           \
     }                                                                                    \
-    extern const crv__fast_kind CRV__NAME(name##_fast);                                  \
-    const crv__fast_kind CRV__NAME(name##_fast) = {.run = run, __VA_ARGS__};
+    extern const crv__deinterleaved_method CRV__NAME(name##_deinterleaved);              \
+    const crv__deinterleaved_method CRV__NAME(name##_deinterleaved) = {.run = run,       \
+                                                                       __VA_ARGS__};
 
 #endif

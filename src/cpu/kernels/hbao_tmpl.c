@@ -86,8 +86,8 @@ CRV__INLINE view view_of(crv__shape shape, const crv__pixels *at)
 }
 
 /* The sample of a slice at t. */
-CRV__INLINE void walk(const crv__frame *f, crv__shape shape, const crv__pixels *at,
-                      const view *eye, vf t, slice *s, int precise)
+CRV__INLINE void take_sample(const crv__frame *f, crv__shape shape, const crv__pixels *at,
+                             const view *eye, vf t, slice *s, int precise)
 {
     const crv__params *p = f->params;
     const vi u = vi_floor(eye->centre_x + t * s->step_x);
@@ -144,7 +144,7 @@ CRV__INLINE vf sum_slices(const crv__frame *f, crv__shape shape, const crv__pixe
             if (p->spacing == CRV_SPACING_QUADRATIC)
                 t = t * t;
             for (int32_t k = 0; k < count; k++)
-                walk(f, shape, at, &eye, t, &slices[k], precise);
+                take_sample(f, shape, at, &eye, t, &slices[k], precise);
         }
         for (int32_t k = 0; k < count; k++)
             occlusion =

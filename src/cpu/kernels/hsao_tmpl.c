@@ -12,7 +12,7 @@ typedef struct slice {
 
 /* Raises the horizon where the look of step i is blocked. */
 CRV__INLINE void raise_horizon(const crv__frame *f, crv__shape shape, crv__v3 origin,
-                               crv__v3 n, const crv__look *look, int32_t i, slice *s)
+                               crv__v3 n, const crv__lookup *look, int32_t i, slice *s)
 {
     const crv__params *p = f->params;
     const crv__v3 t = s->t;
@@ -43,15 +43,15 @@ CRV__INLINE void raise_horizon(const crv__frame *f, crv__shape shape, crv__v3 or
 
 CRV__INLINE void trace_horizons(const crv__frame *f, crv__shape shape,
                                 const crv__pixels *at, crv__v3 origin, int32_t count,
-                                slice slices[CRV__WALKS])
+                                slice slices[CRV__MARCHES])
 {
     const crv__params *p = f->params;
-    crv__look looks[CRV__WALKS];
+    crv__lookup looks[CRV__MARCHES];
     for (int32_t i = 1; i <= p->steps; i++) {
         const vf step = crv__lanes_step(p, at, i);
         for (int32_t k = 0; k < count; k++)
-            crv__lanes_look(f, shape, crv__v3_add_scaled(origin, slices[k].h, step),
-                            at->active, &looks[k]);
+            crv__lanes_look_up(f, shape, crv__v3_add_scaled(origin, slices[k].h, step),
+                               at->active, &looks[k]);
         for (int32_t k = 0; k < count; k++) {
             if (vm_any(looks[k].open))
                 raise_horizon(f, shape, origin, at->n, &looks[k], i, &slices[k]);
@@ -64,12 +64,12 @@ CRV__INLINE void trace_horizons(const crv__frame *f, crv__shape shape,
 /* What the rays above the horizons hit, added to the slices' occlusion. */
 CRV__INLINE void add_normal_rays(const crv__frame *f, crv__shape shape,
                                  const crv__pixels *at, crv__v3 origin, int32_t first,
-                                 int32_t count, slice slices[CRV__WALKS])
+                                 int32_t count, slice slices[CRV__MARCHES])
 {
     const crv__params *p = f->params;
     const vf rays = vf_set((float)p->normal_rays), one = vf_set(1);
-    crv__v3 directions[CRV__WALKS];
-    vf weights[CRV__WALKS], blocked[CRV__WALKS];
+    crv__v3 directions[CRV__MARCHES];
+    vf weights[CRV__MARCHES], blocked[CRV__MARCHES];
     for (int32_t k = 0; k < count; k++)
         blocked[k] = vf_zero();
     for (int32_t ray = 0; ray < p->normal_rays; ray++) {
@@ -97,10 +97,10 @@ CRV__INLINE vf accessibility(const crv__frame *f, crv__shape shape, const crv__p
     crv__v3 tangent, bitangent;
     crv__lanes_tangents(at->n, &tangent, &bitangent);
     vf occlusion = zero;
-    for (int32_t first = 0; first < p->directions; first += CRV__WALKS) {
+    for (int32_t first = 0; first < p->directions; first += CRV__MARCHES) {
         const int32_t rest = p->directions - first;
-        const int32_t count = rest < CRV__WALKS ? rest : CRV__WALKS;
-        slice slices[CRV__WALKS];
+        const int32_t count = rest < CRV__MARCHES ? rest : CRV__MARCHES;
+        slice slices[CRV__MARCHES];
         for (int32_t k = 0; k < count; k++) {
             const crv__v3 t = crv__lanes_slice_tangent(at, first + k, tangent, bitangent);
             slices[k] = (slice){

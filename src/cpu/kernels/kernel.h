@@ -5,7 +5,7 @@
 
 #include "core/conversions.h"
 #include "core/ids.h"
-#include "cpu/kernels/fast.h"
+#include "cpu/kernels/deinterleaved.h"
 
 #include <stdbool.h>
 
@@ -28,23 +28,23 @@ enum { CRV__FILTER_TILE_WIDTH = 128, CRV__FILTER_TILE_HEIGHT = 84 };
 typedef void (*crv__filter_kernel)(const crv__frame *frame, const crv__plane *input,
                                    const crv__plane *out, crv__tile tile);
 
-/* A method's kernel in the fast structure, and its samples. 0 or 1 each: walks of steps
+/* A method's kernel in the di structure, and its samples. 0 or 1 each: slices of steps
  * in directions, not the points of a pattern; an even number of directions or points
  * comes in opposite pairs; steps are rounded to even, not half up; those to the pixel
  * itself are kept; those of 32 pixels or more are rounded to multiples of the tile's 4.
  * Projected radii are quantised to 2^fineness buckets an octave. */
-typedef struct crv__fast_kind {
-    crv__fast_kernel run;
-    bool is_walk, in_pairs, is_rounded, keeps_own, on_grid;
+typedef struct crv__deinterleaved_method {
+    crv__deinterleaved_kernel run;
+    bool in_slices, in_pairs, is_rounded, keeps_centre, far_on_grid;
     int32_t fineness;
-} crv__fast_kind;
+} crv__deinterleaved_method;
 
 /* NULL: there is none. */
 typedef struct crv__kernels {
     crv__estimate_kernel estimates[CRV__METHOD_COUNT];
-    const crv__fast_kind *fast[CRV__METHOD_COUNT];
+    const crv__deinterleaved_method *deinterleaved[CRV__METHOD_COUNT];
     crv__filter_kernel filters[CRV__FILTER_COUNT];
-    crv__fast_deal_kernel deal;
+    crv__deinterleave_kernel deinterleave;
     crv__conversions conversions;
 } crv__kernels;
 

@@ -42,7 +42,7 @@ typedef struct crv__shape {
 /* A pattern's points, or the directions, as the lanes of a row turn them. */
 enum { CRV__TURNED_POINTS = 64 };
 typedef struct crv__turned_points {
-    int32_t count; /* so many are there; the others are turned where they are needed */
+    int32_t count; /* that are there; the others are turned when they are needed */
     vf x[CRV__TURNED_POINTS], y[CRV__TURNED_POINTS];
 } crv__turned_points;
 

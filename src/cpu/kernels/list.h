@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What has a kernel in every instruction set: one line each. FAST:
- * crv__fast_kind. */
+/* What has a kernel in every instruction set: one line each. DEINTERLEAVED: methods with
+ * a kernel in the deinterleaved structure (deinterleaved.h). */
 CRV__ESTIMATE(alchemy)
 CRV__ESTIMATE(containment)
 CRV__ESTIMATE(hbao)
@@ -12,6 +12,6 @@ CRV__ESTIMATE(vo)
 CRV__FILTER(bilateral13)
 CRV__FILTER(box4)
 CRV__FILTER(gauss5)
-CRV__FAST(alchemy)
-CRV__FAST(hbao)
-CRV__FAST(vo)
+CRV__DEINTERLEAVED(alchemy)
+CRV__DEINTERLEAVED(hbao)
+CRV__DEINTERLEAVED(vo)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * methods/march.h for the lanes of a vector: walks through view space and looks points up
- * in the depth buffer. Everything that a position depends on is rounded as there.
+ * methods/march.h for the lanes of a vector: marches through view space and looks points
+ * up in the depth buffer. Everything that a position depends on is rounded as there.
  */
 #ifndef CRV_CPU_KERNELS_MARCH_H
 #define CRV_CPU_KERNELS_MARCH_H
@@ -38,31 +38,32 @@ CRV__INLINE crv__v3 crv__lanes_lift(const crv__params *p, crv__shape shape, crv_
     return crv__v3_add_scaled(P, n, (shape.orthographic ? vf_set(1) : -P.z) / focal);
 }
 
-/* The least and the greatest slope a / z of points within `reach` of (a, z) in a plane
- * through the eye: those of the tangents to the circle. reach < z. */
-CRV__INLINE void crv__lanes_slopes(vf a, vf z, vf reach, vf *least, vf *greatest)
+/* The least and the greatest slope a / z of points within `distance` of (a, z) in a plane
+ * through the eye: those of the tangents to the circle. distance < z. */
+CRV__INLINE void crv__lanes_slopes(vf a, vf z, vf distance, vf *least, vf *greatest)
 {
-    const vf z2 = z * z, reach2 = reach * reach, inverse = vf_rcp(z2 - reach2);
+    const vf z2 = z * z, distance2 = distance * distance,
+             inverse = vf_rcp(z2 - distance2);
     const vf middle = a * z * inverse;
-    const vf half = reach * crv__lanes_root(a * a + z2 - reach2) * inverse;
+    const vf half = distance * crv__lanes_root(a * a + z2 - distance2) * inverse;
     *least = middle - half;
     *greatest = middle + half;
 }
 
-/* Whether every point within `reach` of the active lanes' points lies before the eye and
- * on the buffers, so that none of them need be tested. Perspective. */
-CRV__INLINE int crv__lanes_within(const crv__params *p, crv__v3 P, vf reach, vm active)
+/* Whether every point within `distance` of the active lanes' points lies before the eye
+ * and on the buffers, so that none of them need be tested. Perspective. */
+CRV__INLINE int crv__lanes_within(const crv__params *p, crv__v3 P, vf distance, vm active)
 {
     vf left, right, low, high;
-    crv__lanes_slopes(P.x, -P.z, reach, &left, &right);
-    crv__lanes_slopes(P.y, -P.z, reach, &low, &high);
+    crv__lanes_slopes(P.x, -P.z, distance, &left, &right);
+    crv__lanes_slopes(P.y, -P.z, distance, &low, &high);
     /* A pixel less for all rounding. */
     const vf fx = vf_set(p->fx), fy = vf_set(p->fy);
     vm inside = vm_and(vf_lt(vf_set(1 - p->cx), fx * left),
                        vf_lt(fx * right, vf_set((float)p->width - p->cx - 1)));
     inside = vm_and(inside, vf_lt(vf_set(p->cy - (float)p->height + 1), fy * low));
     inside = vm_and(inside, vf_lt(fy * high, vf_set(p->cy - 1)));
-    inside = vm_and(inside, vf_lt(reach * vf_set(1.001f), -P.z));
+    inside = vm_and(inside, vf_lt(distance * vf_set(1.001f), -P.z));
     return !vm_any(vm_and(active, vm_not(inside)));
 }
 
@@ -106,17 +107,17 @@ CRV__INLINE vf crv__lanes_back(const crv__frame *f, crv__shape shape, int32_t la
                : d + thickness;
 }
 
-/* A point of a walk, looked up in the depth buffer. */
-typedef struct crv__look {
+/* A point of a march, looked up in the depth buffer. */
+typedef struct crv__lookup {
     vi u, v;
     vf front; /* of the first layer there */
     vf depth; /* of the point; where there are several layers */
     vm open;  /* lanes that may be blocked: one layer alone is decided but for the radius
                */
-} crv__look;
+} crv__lookup;
 
-CRV__INLINE void crv__lanes_look(const crv__frame *f, crv__shape shape, crv__v3 Q,
-                                 vm active, crv__look *look)
+CRV__INLINE void crv__lanes_look_up(const crv__frame *f, crv__shape shape, crv__v3 Q,
+                                    vm active, crv__lookup *look)
 {
     const crv__texels at = crv__lanes_texels(f->params, shape, Q, active);
     const vi index = crv__lanes_index(&f->depth[0], at.u, at.v);
@@ -136,7 +137,7 @@ CRV__INLINE void crv__lanes_look(const crv__frame *f, crv__shape shape, crv__v3 
 /* crv__blocked() of a point whose look is open in some lane. *to: from the origin to the
  * surface point; *squared: its length. Both hold anything where not blocked. */
 CRV__INLINE vm crv__lanes_blocked(const crv__frame *f, crv__shape shape, crv__v3 origin,
-                                  const crv__look *look, crv__v3 *to, vf *squared)
+                                  const crv__lookup *look, crv__v3 *to, vf *squared)
 {
     const crv__params *p = f->params;
     const vf radius2 = vf_set(p->radius * p->radius);
@@ -178,33 +179,33 @@ CRV__INLINE vf crv__lanes_step(const crv__params *p, const crv__pixels *at, int3
 }
 
 /* Whether the march of every active lane, from its lifted point, stays on the buffers:
- * the last step may reach 1 / steps of the radius beyond it. */
+ * the last step may distance 1 / steps of the radius beyond it. */
 CRV__INLINE int crv__march_within(const crv__frame *f, const crv__pixels *at)
 {
     const crv__params *p = f->params;
     const crv__shape shape = {.orthographic = 0};
-    const float reach = p->radius * (1 + 1 / (float)p->steps) * 1.0001f;
+    const float distance = p->radius * (1 + 1 / (float)p->steps) * 1.0001f;
     const crv__v3 origin = crv__lanes_lift(p, shape, at->P, at->n);
-    return crv__lanes_within(p, origin, vf_set(reach), at->active);
+    return crv__lanes_within(p, origin, vf_set(distance), at->active);
 }
 
 /*
- * Walks of several directions go side by side: the look-ups of a step do not wait for
- * each other, and a branch that is foretold wrongly costs all of them one delay.
+ * Marches in several directions run side by side: the look-ups of a step do not wait for
+ * each other, and they share the delay of a mispredicted branch.
  */
-enum { CRV__WALKS = 8 };
+enum { CRV__MARCHES = 8 };
 
 /* crv__march() of `count` directions: the falloff's weight of the first thing in the way,
  * by lane. */
 CRV__INLINE void crv__lanes_march(const crv__frame *f, crv__shape shape,
                                   const crv__pixels *at, crv__v3 origin, int32_t count,
-                                  const crv__v3 directions[CRV__WALKS],
-                                  vf weights[CRV__WALKS])
+                                  const crv__v3 directions[CRV__MARCHES],
+                                  vf weights[CRV__MARCHES])
 {
     const crv__params *p = f->params;
     const vf infinity = vf_set(INFINITY);
-    crv__look looks[CRV__WALKS];
-    vm open[CRV__WALKS], any = at->active;
+    crv__lookup looks[CRV__MARCHES];
+    vm open[CRV__MARCHES], any = at->active;
     for (int32_t k = 0; k < count; k++) {
         open[k] = at->active;
         weights[k] = infinity; /* at first the nearest squared distance */
@@ -213,8 +214,9 @@ CRV__INLINE void crv__lanes_march(const crv__frame *f, crv__shape shape,
         const vf step = crv__lanes_step(p, at, i);
         for (int32_t k = 0; k < count; k++) {
             if (vm_any(open[k]))
-                crv__lanes_look(f, shape, crv__v3_add_scaled(origin, directions[k], step),
-                                open[k], &looks[k]);
+                crv__lanes_look_up(f, shape,
+                                   crv__v3_add_scaled(origin, directions[k], step),
+                                   open[k], &looks[k]);
         }
         any = vm_none();
         for (int32_t k = 0; k < count; k++) {

@@ -11,10 +11,10 @@ CRV__INLINE vf accessibility(const crv__frame *f, crv__shape shape, const crv__p
     const int32_t rays = p->normal_rays > 0 ? p->normal_rays : 1;
     const int32_t all = p->directions * rays;
     vf occlusion = vf_zero();
-    for (int32_t first = 0; first < all; first += CRV__WALKS) {
-        const int32_t count = all - first < CRV__WALKS ? all - first : CRV__WALKS;
-        crv__v3 directions[CRV__WALKS];
-        vf weights[CRV__WALKS];
+    for (int32_t first = 0; first < all; first += CRV__MARCHES) {
+        const int32_t count = all - first < CRV__MARCHES ? all - first : CRV__MARCHES;
+        crv__v3 directions[CRV__MARCHES];
+        vf weights[CRV__MARCHES];
         for (int32_t k = 0; k < count; k++) {
             const int32_t i = (first + k) / rays, ray = (first + k) % rays;
             const crv__v3 t = crv__lanes_slice_tangent(at, i, tangent, bitangent);

@@ -8,13 +8,14 @@
 #define CRV__FILTER(name)                                                                \
     void CRV__NAME(name)(const crv__frame *, const crv__plane *, const crv__plane *,     \
                          crv__tile);
-#define CRV__FAST(name) extern const crv__fast_kind CRV__NAME(name##_fast);
+#define CRV__DEINTERLEAVED(name)                                                         \
+    extern const crv__deinterleaved_method CRV__NAME(name##_deinterleaved);
 #include "cpu/kernels/list.h"
 #undef CRV__ESTIMATE
 #undef CRV__FILTER
-#undef CRV__FAST
+#undef CRV__DEINTERLEAVED
 
-void CRV__NAME(deal)(const crv__frame *, const crv__fast *, int32_t);
+void CRV__NAME(deinterleave)(const crv__frame *, const crv__deinterleaved *, int32_t);
 void CRV__NAME(depth_row)(const crv__depth_map *, const float *, ptrdiff_t, int32_t,
                           int32_t, float *);
 void CRV__NAME(rotated_row)(const float *, const float *, ptrdiff_t, ptrdiff_t, int32_t,
@@ -26,9 +27,10 @@ extern const crv__kernels CRV__NAME(kernels);
 const crv__kernels CRV__NAME(kernels) = {
 #define CRV__ESTIMATE(name) .estimates[CRV__METHOD_##name] = CRV__NAME(name),
 #define CRV__FILTER(name)   .filters[CRV__FILTER_##name] = CRV__NAME(name),
-#define CRV__FAST(name)     .fast[CRV__METHOD_##name] = &CRV__NAME(name##_fast),
+#define CRV__DEINTERLEAVED(name)                                                         \
+    .deinterleaved[CRV__METHOD_##name] = &CRV__NAME(name##_deinterleaved),
 #include "cpu/kernels/list.h"
-    .deal = CRV__NAME(deal),
+    .deinterleave = CRV__NAME(deinterleave),
     .conversions = {.depth_row = CRV__NAME(depth_row),
                     .rotated_row = CRV__NAME(rotated_row),
                     .normals_row = CRV__NAME(normals_row)}};

@@ -25,7 +25,7 @@ typedef struct sphere {
     vf lack;                 /* r^2 - c.c */
     vf ray_x2, ray_y2, ray2; /* 2 ray; ray.ray */
     vf b, bx, by;            /* (c - o).w = b + x bx + y by - o.o */
-    vf near, inverse;        /* see crv__pipe_outside(), and 1 / d */
+    vf nearer, inverse;      /* see crv__pipe_outside(), and 1 / d */
     vi index;                /* of P's texel */
 } sphere;
 
@@ -42,7 +42,7 @@ CRV__INLINE sphere sphere_at(const crv__frame *f, crv__shape shape, const crv__p
     const vf one = vf_set(1), x = vf_of(at->x), y = vf_set((float)at->y);
     const crv__v3 offset = {at->n.x * vf_set(radius), at->n.y * vf_set(radius),
                             at->n.z * vf_set(radius)};
-    sphere s = {.near = at->depth * vf_set(1 - 2e-6f), .inverse = one, .c = offset};
+    sphere s = {.nearer = at->depth * vf_set(1 - 2e-6f), .inverse = one, .c = offset};
     s.unit = shape.orthographic ? one : at->depth - offset.z;
     const vf inverse = one / s.unit;
     s.scale_x = vf_set(p->fx) * inverse;
@@ -50,7 +50,7 @@ CRV__INLINE sphere sphere_at(const crv__frame *f, crv__shape shape, const crv__p
     s.u = vf_set(p->cx) + (at->P.x + offset.x) * s.scale_x - x;
     s.v = vf_set(p->cy) - (at->P.y + offset.y) * s.scale_y - y;
     s.b = -offset.z;
-    vf reach = vf_set(radius);
+    vf span = vf_set(radius);
     if (!shape.orthographic) {
         /* Of a sphere this far away all pipes are P's own, o = 0, and any unit does. */
         s.inverse = one / vf_min(at->depth, vf_set(1e12f * radius));
@@ -63,9 +63,9 @@ CRV__INLINE sphere sphere_at(const crv__frame *f, crv__shape shape, const crv__p
         s.b = vf_fma(s.c.x, ray_x, vf_fma(s.c.y, ray_y, -s.c.z));
         s.bx = s.c.x - ray_x;
         s.by = s.c.y - ray_y;
-        reach = reach * s.inverse;
+        span = span * s.inverse;
     }
-    s.lack = vf_fma(reach, reach, -crv__v3_dot(s.c, s.c));
+    s.lack = vf_fma(span, span, -crv__v3_dot(s.c, s.c));
     s.index = crv__lanes_index(&f->depth[0], at->x, vi_set(at->y));
     return s;
 }
@@ -101,17 +101,17 @@ CRV__INLINE vf open_part(const crv__frame *f, crv__shape shape, const sphere *s,
     vf open = half, from = -half;
     for (int32_t layer = 0; layer < shape.layers; layer += 2) {
         const vf depth = vf_gather(f->depth[layer].data, index, on);
-        const vf behind = vf_fma(depth - s->near, s->inverse, -c->middle);
-        const vf front = vf_max(vf_min(behind, half), -half);
+        const vf behind = vf_fma(depth - s->nearer, s->inverse, -c->middle);
+        const vf nearer = vf_max(vf_min(behind, half), -half);
         if (layer == 0)
-            open = front;
+            open = nearer;
         else
-            open = open + vf_max(front - from, vf_zero());
+            open = open + vf_max(nearer - from, vf_zero());
         if (!shape.solid || layer + 1 >= shape.layers)
             return shape.within ? open : vf_select(on, open, half);
-        /* Where the front is behind the end, so is the back: nothing is added. */
-        const vf back = vf_gather(f->depth[layer + 1].data, index, on) - s->near;
-        from = vf_max(from, vf_select(vf_lt(front, half),
+        /* Where the nearer is behind the end, so is the back: nothing is added. */
+        const vf back = vf_gather(f->depth[layer + 1].data, index, on) - s->nearer;
+        from = vf_max(from, vf_select(vf_lt(nearer, half),
                                       vf_fma(back, s->inverse, -c->middle), half));
     }
     return vf_select(on, open + vf_max(half - from, vf_zero()), half);

@@ -129,7 +129,7 @@ CRV__INLINE vf vf_of(vi a)
     return _mm256_cvtepi32_ps((__m256i)a);
 }
 
-/* Loads and inserts: no slower than the set's own gather where that is fast, and much
+/* Loads and inserts: no slower than the set's own gather where that is di, and much
  * faster where it is not. */
 CRV__INLINE vf vf_gather(const float *base, vi index, vm mask)
 {

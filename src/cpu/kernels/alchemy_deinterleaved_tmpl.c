@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* methods/alchemy.c in the fast structure, in the units of hbao_fast_tmpl.c: with k = 1 -
- * ds/d, v.n = n.o - k (n.o + n.ray). Samples at P itself are left out: they add nothing.
+/* methods/alchemy.c in the di structure, in the units of hbao_deinterleaved_tmpl.c: with
+ * k = 1 - ds/d, v.n = n.o - k (n.o + n.ray). Samples at P itself are left out: they add
+ * nothing.
  */
 #include "cpu/kernels/groups.h"
 
@@ -13,8 +14,7 @@ typedef struct view {
     vf bias, eps;
 } view;
 
-static inline __attribute__((always_inline)) view view_of(const crv__fast_pixels *at,
-                                                          int32_t orthographic)
+CRV__INLINE view view_of(const crv__group_pixels *at, int32_t orthographic)
 {
     const crv__params *p = at->frame->params;
     const vf one = vf_set(1), half = vf_set(0.5f), rx = at->ray_x, ry = at->ray_y;
@@ -32,8 +32,7 @@ static inline __attribute__((always_inline)) view view_of(const crv__fast_pixels
 }
 
 /* sample_count() */
-static inline __attribute__((always_inline)) vf count_of(const crv__fast_pixels *at,
-                                                         const view *w)
+CRV__INLINE vf count_of(const crv__group_pixels *at, const view *w)
 {
     const crv__params *p = at->frame->params;
     const float focal = p->fx > p->fy ? p->fx : p->fy;
@@ -45,23 +44,23 @@ static inline __attribute__((always_inline)) vf count_of(const crv__fast_pixels 
     return vf_floor((samples * used + bands - vf_set(0.5f)) / bands);
 }
 
-static inline __attribute__((always_inline)) vf sum_of_points(
-    const crv__fast_pixels *at, const crv__fast_list *list, int32_t orthographic,
-    int32_t layers, int32_t banded, int32_t near)
+CRV__INLINE vf sum_of_points(const crv__group_pixels *at, const crv__list *list,
+                             int32_t orthographic, int32_t layers, int32_t banded,
+                             int32_t border)
 {
     const crv__params *p = at->frame->params;
     const view w = view_of(at, orthographic);
     const vf count = banded ? count_of(at, &w) : vf_set((float)p->samples);
     vf sum = vf_zero();
     for (int32_t i = 0; i < list->counts[0]; i++) {
-        const crv__fast_sample *s = &list->samples[i];
+        const crv__sample *s = &list->samples[i];
         const vf x2 = vf_set(s->x2), y2 = vf_set(s->y2), squared2 = vf_set(s->squared);
-        const float *from = crv__fast_from(at, &list->places[i], 0, near);
+        const float *from = crv__sample_at(at, &list->places[i], 0, border);
         const vf along = vf_fma(x2, at->ray_x, y2 * at->ray_y);
         const vf rise = vf_fma(x2, w.half_x, y2 * w.half_y);
         vm left = vf_le(w.scale, w.scale); /* lanes with no layer within the radius yet */
         for (int32_t layer = 0; layer < layers; layer++) {
-            const vf depth = crv__fast_read(at, from + layer * at->fast->layer_pitch);
+            const vf depth = crv__sample_depth(at, from + layer * at->di->layer_pitch);
             const vf k = vf_fma(-depth, w.scale, w.origin);
             vf squared, over;
             if (orthographic) {
@@ -97,31 +96,28 @@ static inline __attribute__((always_inline)) vf sum_of_points(
     return vf_set(1) - sum * w.scale * share * (ratio * ratio);
 }
 
-static __attribute__((noinline)) vf common(const crv__fast_pixels *at,
-                                           const crv__fast_list *list)
+CRV__NOINLINE vf common(const crv__group_pixels *at, const crv__list *list)
 {
     return sum_of_points(at, list, 0, 1, 0, 0);
 }
 
-static __attribute__((noinline)) vf common_near(const crv__fast_pixels *at,
-                                                const crv__fast_list *list)
+CRV__NOINLINE vf common_border(const crv__group_pixels *at, const crv__list *list)
 {
     return sum_of_points(at, list, 0, 1, 0, 1);
 }
 
-static __attribute__((noinline)) vf general(const crv__fast_pixels *at,
-                                            const crv__fast_list *list)
+CRV__NOINLINE vf general(const crv__group_pixels *at, const crv__list *list)
 {
     const crv__params *p = at->frame->params;
     return sum_of_points(at, list, p->orthographic, p->layers, p->bands > 1, 1);
 }
 
-static inline vf accessibility(const crv__fast_pixels *at, const crv__fast_list *list)
+CRV__INLINE vf accessibility(const crv__group_pixels *at, const crv__list *list)
 {
     const crv__params *p = at->frame->params;
     if (p->layers > 1 || p->orthographic || p->bands > 1)
         return general(at, list);
-    return at->near ? common_near(at, list) : common(at, list);
+    return at->at_border ? common_border(at, list) : common(at, list);
 }
 
-CRV__FAST_KERNEL(alchemy, .on_grid = true, .fineness = 2)
+CRV__DEINTERLEAVED_KERNEL(alchemy, .far_on_grid = true, .fineness = 2)

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The fast structure: every instruction set against its scalar statement, on random and
- * pathological data between guard bytes; and against the exact structure, of which it is
- * another draw.
+ * The deinterleaved structure: every instruction set against its scalar reference, on
+ * random and pathological data between guard bytes; and against the exact structure, from
+ * which it differs in noise only.
  */
-#include "fast.h"
+#include "deinterleaved_reference.h"
 #include "fixture.h"
 
 #include <math.h>
@@ -75,7 +75,7 @@ static void count_by_set(const simd_case *c, int32_t index, const float *expecte
     }
 }
 
-static void sets_compute_the_statement(void **state)
+static void sets_compute_the_reference(void **state)
 {
     (void)state;
     for (int m = 0; m < 3; m++) {
@@ -83,7 +83,7 @@ static void sets_compute_the_statement(void **state)
         for (int32_t i = 0; i < CASES; i++) {
             simd_case *c = make_case(METHODS[m], i);
             int32_t with_bucket;
-            float *expected = fast_statement(c, &with_bucket);
+            float *expected = deinterleaved_reference(c, &with_bucket);
             assert_non_null(expected);
             count_by_set(c, i, expected, beyond);
             pixels += pixel_count(c);
@@ -106,7 +106,8 @@ static float *compute(const fixture *f, const crv_options *options, int32_t exac
     return fixture_compute(f, options, &(fixture_run){.exact = exact});
 }
 
-/* Both draws of a smooth scene have the same mean: their pixels' difference is noise. */
+/* Both structures' estimates of a smooth scene have the same mean: their pixels'
+ * difference is noise. */
 static void the_mean_is_the_exact_one(void **state)
 {
     (void)state;
@@ -118,22 +119,23 @@ static void the_mean_is_the_exact_one(void **state)
         crv_options options = fixture_options(METHODS[m]);
         options.filter = NULL;
         options.radius = 0.7f;
-        float *exact = compute(&f, &options, 1), *fast = compute(&f, &options, 0);
+        float *exact = compute(&f, &options, 1), *moved = compute(&f, &options, 0);
         double sum = 0, squares = 0;
         for (int32_t i = 0; i < WIDTH * HEIGHT; i++) {
-            const double difference = (double)fast[i] - (double)exact[i];
+            const double difference = (double)moved[i] - (double)exact[i];
             sum += difference;
             squares += difference * difference;
         }
         const double rms = sqrt(squares / (WIDTH * HEIGHT)),
                      bias = sum / (WIDTH * HEIGHT);
-        printf("%s: fast - exact: mean %+.5f, rms %.5f\n", METHODS[m], bias, rms);
-        assert_true(rms > 1e-3); /* it is another draw */
-        /* Neighbours of a tile share their samples: 16 draws for each of some hundred
+        printf("%s: deinterleaved - exact: mean %+.5f, rms %.5f\n", METHODS[m], bias,
+               rms);
+        assert_true(rms > 1e-3); /* its noise is different */
+        /* Neighbours of a tile share their samples: 16 samples for each of some hundred
          * places; a twentieth of the noise, and no step to be seen in 8 bits. */
         assert_true(fabs(bias) < fmin(0.05 * rms + 2e-4, 0.002));
         free(exact);
-        free(fast);
+        free(moved);
     }
     fixture_free(&f);
 }
@@ -152,14 +154,14 @@ static void many_samples_converge_to_the_exact_value(void **state)
         options.directions = 16;
         options.steps = 16;
         options.samples = 140;
-        float *exact = compute(&f, &options, 1), *fast = compute(&f, &options, 0);
+        float *exact = compute(&f, &options, 1), *moved = compute(&f, &options, 0);
         double squares = 0;
         for (int32_t i = 0; i < EDGE * EDGE; i++)
-            squares += pow((double)fast[i] - (double)exact[i], 2);
+            squares += pow((double)moved[i] - (double)exact[i], 2);
         const double rms = sqrt(squares / (EDGE * EDGE));
         printf("%s: groove, many samples: RMS difference %.4f\n", METHODS[m], rms);
         free(exact);
-        free(fast);
+        free(moved);
         /* Independent points in [0, 1] err by 1/sqrt(4 n) at most, 0.042 (2010); patterns
          * that are well spread by less than half of it. */
         assert_true(rms > 0 && rms < 0.021);
@@ -170,7 +172,7 @@ static void many_samples_converge_to_the_exact_value(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sets_compute_the_statement),
+        cmocka_unit_test(sets_compute_the_reference),
         cmocka_unit_test(the_mean_is_the_exact_one),
         cmocka_unit_test(many_samples_converge_to_the_exact_value),
     };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * methods/hbao.c in the fast structure.
+ * methods/hbao.c in the di structure.
  *
  * All is measured in units of the pixel's own depth d (perspective; orthographic: scene
  * units). With k = 1 - ds/d the sample is v = o - k (ray + o), so that
@@ -13,7 +13,8 @@
 
 /* What the code is specialised by. */
 typedef struct shape {
-    int32_t falloff, biased, horizon, orthographic, layers, paired, near;
+    int32_t falloff, layers;
+    bool biased, horizon, orthographic, paired, border;
 } shape;
 
 /* What does not change from sample to sample. */
@@ -31,12 +32,11 @@ typedef struct slice {
     vf horizon, occlusion, weight;
 } slice;
 
-static inline __attribute__((always_inline)) view view_of(const crv__fast_pixels *at,
-                                                          shape s)
+CRV__INLINE view view_of(const crv__group_pixels *at, shape s)
 {
     const crv__params *p = at->frame->params;
     const vf one = vf_set(1), half = vf_set(0.5f), rx = at->ray_x, ry = at->ray_y;
-    view w = {.params = p, .layer_pitch = at->fast->layer_pitch};
+    view w = {.params = p, .layer_pitch = at->di->layer_pitch};
     w.scale = s.orthographic ? one : at->inverse;
     w.origin = s.orthographic ? at->depth : one;
     const vf inverse_unit = s.orthographic ? one : at->inverse;
@@ -56,9 +56,8 @@ static inline __attribute__((always_inline)) view view_of(const crv__fast_pixels
 }
 
 /* One surface point. twice_along: 2 ray.o; tilt: minus the sine of the tangent. */
-static inline __attribute__((always_inline)) void add_sample(
-    slice *walk, const view *w, shape s, const crv__fast_sample *sample, vf depth,
-    vf twice_along, vf tilt)
+CRV__INLINE void add_sample(slice *current, const view *w, shape s,
+                            const crv__sample *sample, vf depth, vf twice_along, vf tilt)
 {
     const vf k = vf_fma(-depth, w->scale, w->origin);
     const vf squared2 = vf_set(sample->squared);
@@ -80,25 +79,27 @@ static inline __attribute__((always_inline)) void add_sample(
         tilt = tilt * cos_bias - cosine * sin_bias;
     }
     const vf h = vf_fma(k, inverse, tilt);
-    const vf risen = s.biased ? vf_max(vf_where(valid, h), walk->horizon)
-                              : vf_max_within(walk->horizon, h, squared, w->limit);
-    const vf rise = risen - walk->horizon;
+    const vf risen = s.biased ? vf_max(vf_where(valid, h), current->horizon)
+                              : vf_max_within(current->horizon, h, squared, w->limit);
+    const vf rise = risen - current->horizon;
     if (s.falloff == CRV_FALLOFF_LINEAR && !s.horizon) {
-        walk->occlusion = vf_fma(rise, distance, walk->occlusion); /* to be taken off */
+        current->occlusion =
+            vf_fma(rise, distance, current->occlusion); /* to be taken off */
     } else if (s.falloff != CRV_FALLOFF_NONE) {
         const vf W = crv__lanes_falloff(w->params, distance * w->inverse_radius);
         if (s.horizon)
-            walk->weight = vf_select(vf_lt(walk->horizon, risen), W, walk->weight);
+            current->weight =
+                vf_select(vf_lt(current->horizon, risen), W, current->weight);
         else
-            walk->occlusion = vf_fma(rise, W, walk->occlusion);
+            current->occlusion = vf_fma(rise, W, current->occlusion);
     }
-    walk->horizon = risen;
+    current->horizon = risen;
 }
 
 /* The samples of one place, and of the one opposite to it. */
-static inline __attribute__((always_inline)) void add_place(
-    slice walks[2], const crv__fast_pixels *at, const view *w, shape s,
-    const crv__fast_sample *sample, const crv__fast_place *place)
+CRV__INLINE void add_place(slice pair[2], const crv__group_pixels *at, const view *w,
+                           shape s, const crv__sample *sample,
+                           const crv__sample_place *place)
 {
     const vf along =
         vf_fma(vf_set(sample->x2), at->ray_x, vf_set(sample->y2) * at->ray_y);
@@ -107,91 +108,94 @@ static inline __attribute__((always_inline)) void add_place(
     const vf tilt =
         vf_fma(vf_set(sample->cosine), at->n.x, vf_set(sample->sine) * at->n.y)
         * vf_rsqrt_fair(length2);
-    const float *from[2] = {crv__fast_from(at, place, 0, s.near),
-                            crv__fast_from(at, place, 1, s.near)};
+    const float *from[2] = {crv__sample_at(at, place, 0, s.border),
+                            crv__sample_at(at, place, 1, s.border)};
     for (int32_t layer = 0; layer < s.layers; layer++) {
         const ptrdiff_t skip = layer * w->layer_pitch;
-        add_sample(&walks[0], w, s, sample, crv__fast_read(at, from[0] + skip), along,
+        add_sample(&pair[0], w, s, sample, crv__sample_depth(at, from[0] + skip), along,
                    tilt);
         if (s.paired)
-            add_sample(&walks[1], w, s, sample, crv__fast_read(at, from[1] + skip),
+            add_sample(&pair[1], w, s, sample, crv__sample_depth(at, from[1] + skip),
                        -along, -tilt);
     }
 }
 
 /* The occlusion of a finished slice. */
-static inline __attribute__((always_inline)) vf occlusion_of(const slice *walk, shape s)
+CRV__INLINE vf occlusion_of(const slice *current, shape s)
 {
     if (s.horizon)
-        return s.falloff == CRV_FALLOFF_NONE ? walk->horizon
-                                             : walk->horizon * walk->weight;
+        return s.falloff == CRV_FALLOFF_NONE ? current->horizon
+                                             : current->horizon * current->weight;
     return s.falloff == CRV_FALLOFF_NONE || s.falloff == CRV_FALLOFF_LINEAR
-               ? walk->horizon
-               : walk->occlusion;
+               ? current->horizon
+               : current->occlusion;
 }
 
-static inline __attribute__((always_inline)) vf sum_of_walks(const crv__fast_pixels *at,
-                                                             const crv__fast_list *list,
-                                                             shape s)
+CRV__INLINE vf sum_of_slices(const crv__group_pixels *at, const crv__list *list, shape s)
 {
-    const crv__fast *fast = at->fast;
+    const crv__deinterleaved *di = at->di;
     const view w = view_of(at, s);
     const vf zero = vf_zero();
-    slice walks[2] = {{zero, zero, zero}, {zero, zero, zero}};
+    slice pair[2] = {{zero, zero, zero}, {zero, zero, zero}};
     vf sum = zero;
-    for (int32_t k = 0; k < fast->walks; k++) {
-        const int32_t first = k * fast->steps, last = first + list->counts[k];
+    for (int32_t k = 0; k < di->slices; k++) {
+        const int32_t first = k * di->steps, last = first + list->counts[k];
         for (int32_t i = 0; i < 1 + s.paired; i++) {
-            walks[i].horizon = zero;
+            pair[i].horizon = zero;
             if (s.falloff != CRV_FALLOFF_LINEAR || s.horizon)
-                walks[i].occlusion = walks[i].weight = zero;
+                pair[i].occlusion = pair[i].weight = zero;
         }
         for (int32_t i = first; i < last; i++)
-            add_place(walks, at, &w, s, &list->samples[i], &list->places[i]);
+            add_place(pair, at, &w, s, &list->samples[i], &list->places[i]);
         for (int32_t i = 0; i < 1 + s.paired; i++)
-            sum = sum + occlusion_of(&walks[i], s);
+            sum = sum + occlusion_of(&pair[i], s);
     }
     /* Linear: the rises less the rises times the distances. */
     if (s.falloff == CRV_FALLOFF_LINEAR && !s.horizon)
         for (int32_t i = 0; i < 1 + s.paired; i++)
-            sum = sum - walks[i].occlusion * w.inverse_radius;
+            sum = sum - pair[i].occlusion * w.inverse_radius;
     return vf_set(1) - sum * vf_set(1.0f / (float)w.params->directions);
 }
 
 #define SHAPE(name, ...)                                                                 \
-    static __attribute__((noinline)) vf name(const crv__fast_pixels *at,                 \
-                                             const crv__fast_list *list)                 \
+    CRV__NOINLINE vf name(const crv__group_pixels *at, const crv__list *list)            \
     {                                                                                    \
-        return sum_of_walks(at, list, (shape){__VA_ARGS__});                             \
+        return sum_of_slices(at, list, (shape){__VA_ARGS__});                            \
     }
 
-SHAPE(linear, CRV_FALLOFF_LINEAR, 0, 0, 0, 1, 1, 0)
-SHAPE(linear_near, CRV_FALLOFF_LINEAR, 0, 0, 0, 1, 1, 1)
-SHAPE(hard, CRV_FALLOFF_NONE, 0, 0, 0, 1, 1, 0)
-SHAPE(hard_near, CRV_FALLOFF_NONE, 0, 0, 0, 1, 1, 1)
+SHAPE(linear, .falloff = CRV_FALLOFF_LINEAR, .layers = 1, .paired = true)
+SHAPE(linear_border, .falloff = CRV_FALLOFF_LINEAR, .layers = 1, .paired = true,
+      .border = true)
+SHAPE(hard, .falloff = CRV_FALLOFF_NONE, .layers = 1, .paired = true)
+SHAPE(hard_border, .falloff = CRV_FALLOFF_NONE, .layers = 1, .paired = true,
+      .border = true)
 
 /* Everything else. */
-static __attribute__((noinline)) vf general(const crv__fast_pixels *at,
-                                            const crv__fast_list *list)
+CRV__NOINLINE vf general(const crv__group_pixels *at, const crv__list *list)
 {
     const crv__params *p = at->frame->params;
-    return sum_of_walks(at, list,
-                        (shape){p->falloff, p->sin_bias > 0,
-                                p->attenuation == CRV_ATTENUATION_HORIZON,
-                                p->orthographic, p->layers, at->fast->paired, 1});
+    return sum_of_slices(at, list,
+                         (shape){.falloff = p->falloff,
+                                 .layers = p->layers,
+                                 .biased = p->sin_bias > 0,
+                                 .horizon = p->attenuation == CRV_ATTENUATION_HORIZON,
+                                 .orthographic = p->orthographic,
+                                 .paired = at->di->paired,
+                                 .border = true});
 }
 
-static inline vf accessibility(const crv__fast_pixels *at, const crv__fast_list *list)
+CRV__INLINE vf accessibility(const crv__group_pixels *at, const crv__list *list)
 {
     const crv__params *p = at->frame->params;
-    if (at->fast->paired && p->layers == 1 && !p->orthographic && !(p->sin_bias > 0)
+    if (at->di->paired && p->layers == 1 && !p->orthographic && !(p->sin_bias > 0)
         && p->attenuation == CRV_ATTENUATION_SLAB) {
         if (p->falloff == CRV_FALLOFF_LINEAR)
-            return at->near ? linear_near(at, list) : linear(at, list);
+            return at->at_border ? linear_border(at, list) : linear(at, list);
         if (p->falloff == CRV_FALLOFF_NONE)
-            return at->near ? hard_near(at, list) : hard(at, list);
+            return at->at_border ? hard_border(at, list) : hard(at, list);
     }
     return general(at, list);
 }
 
-CRV__FAST_KERNEL(hbao, .is_walk = true, .in_pairs = true, .on_grid = true, .fineness = 2)
+CRV__DEINTERLEAVED_KERNEL(hbao, .in_slices = true, .in_pairs = true, .far_on_grid = true,
+                          .fineness = 2)

@@ -1,41 +1,36 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The scalar statement of the fast structure, written from its description: 16 pixels of
- * a row, every fourth column of a span of 64, share a few buckets of projected radii,
- * four an octave and for vo sixteen, of which one serves its neighbours. Samples of hbao
- * and alchemy that are 32 pixels away or more are at multiples of 4 pixels.
+ * The scalar reference of the deinterleaved structure, written from its description: 16
+ * pixels of a row, every fourth column of a span of 64, share a few buckets of projected
+ * radii, four an octave and for vo sixteen, of which one serves its neighbours. Samples
+ * of hbao and alchemy that are 32 pixels away or more are at multiples of 4 pixels.
  */
-#include "fast.h"
+#include "deinterleaved_reference.h"
 
-#include "core/backend.h"
 #include "core/falloff.h"
 #include "core/gbuffer.h"
-#include "core/noise.h"
+#include "core/setup.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double PI = 3.14159265358979323846;
-
 enum { LANES = 16, PHASES = 4, SPAN = LANES * PHASES, OCTAVES = 14 };
 
-typedef struct statement {
+typedef struct reference {
     const simd_case *c;
     crv__params params;
     crv__frame frame;
-    crv__noise_texel noise[16];
-    float *directions, *pattern;
     float background;  /* the depth from which on there is no surface */
     int32_t left, top; /* of the buffers' first pixel in the picture's spans and phases */
-} statement;
+} reference;
 
 static int32_t wrapped(int32_t value, int32_t size)
 {
     return (value % size + size) % size;
 }
 
-static int is_surface(const statement *s, int32_t x, int32_t y)
+static int is_surface(const reference *s, int32_t x, int32_t y)
 {
     return x >= 0 && x < s->params.width
            && *crv__plane_at(&s->frame.depth[0], x, y) < s->background;
@@ -48,7 +43,7 @@ static int32_t fineness(const simd_case *c)
 }
 
 /* What the radii of a phase are multiplied with before they are sorted into buckets. */
-static float scale_of(const statement *s, int32_t px, int32_t py)
+static float scale_of(const reference *s, int32_t px, int32_t py)
 {
     static const int RANK[4][4] = {
         {0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
@@ -56,7 +51,7 @@ static float scale_of(const statement *s, int32_t px, int32_t py)
 }
 
 /* The vertical projected radius in pixels. */
-static float radius_at(const statement *s, int32_t x, int32_t y)
+static float radius_at(const reference *s, int32_t x, int32_t y)
 {
     const crv__params *p = &s->params;
     const float d = *crv__plane_at(&s->frame.depth[0], x, y);
@@ -65,17 +60,17 @@ static float radius_at(const statement *s, int32_t x, int32_t y)
 
 /* Buckets part the space between powers of two evenly, the first begins at 1/2. -1: no
  * surface, or beyond all. */
-static int32_t bucket_at(const statement *s, int32_t x, int32_t y)
+static int32_t bucket_at(const reference *s, int32_t x, int32_t y)
 {
     const crv__params *p = &s->params;
-    const int is_walk = strcmp(s->c->options.method->name, "hbao") == 0;
+    const int in_slices = strcmp(s->c->options.method->name, "hbao") == 0;
     if (!is_surface(s, x, y))
         return -1;
     float radius = radius_at(s, x, y);
     const int32_t parts = fineness(s->c);
     if (!(radius < 0.5f * (1 << OCTAVES) * exp2f(-0.5f / (float)parts) * 0.99f))
         return -1;
-    if (is_walk) {
+    if (in_slices) {
         const float cap =
             p->fx > p->fy ? p->max_radius_px * (p->fy / p->fx) : p->max_radius_px;
         radius = fminf(radius, cap);
@@ -89,7 +84,7 @@ static int32_t bucket_at(const statement *s, int32_t x, int32_t y)
 
 /* The bucket that serves the pixel: of the group's buckets in rising order, the lowest
  * and the two above it share one; of three the middle one, of two that of more pixels. */
-static int32_t serving_bucket(const statement *s, int32_t x, int32_t y)
+static int32_t serving_bucket(const reference *s, int32_t x, int32_t y)
 {
     const int32_t own = bucket_at(s, x, y);
     const int32_t column = x + s->left, first = column / SPAN * SPAN + column % PHASES;
@@ -113,7 +108,7 @@ static int32_t serving_bucket(const statement *s, int32_t x, int32_t y)
 }
 
 /* The radius of the middle depth of a bucket. */
-static float radius_of(const statement *s, int32_t bucket)
+static float radius_of(const reference *s, int32_t bucket)
 {
     const int32_t parts = fineness(s->c);
     const float octave = exp2f((float)(bucket / parts - 1));
@@ -123,7 +118,7 @@ static float radius_of(const statement *s, int32_t bucket)
 }
 
 /* methods/vo.c, with lines where another radius puts them. */
-static float vo(const statement *s, int32_t x, int32_t y, float radius)
+static float vo(const reference *s, int32_t x, int32_t y, float radius)
 {
     const crv__params *p = &s->params;
     const crv__noise_texel *noise = crv__noise_at(&s->frame, x, y);
@@ -132,7 +127,7 @@ static float vo(const statement *s, int32_t x, int32_t y, float radius)
     float open = 0, total = 0;
     for (int32_t i = 0; i < p->samples; i++) {
         const crv__vec2 disk =
-            crv__turned(noise, s->pattern[4 * i], s->pattern[4 * i + 1]);
+            crv__turned(noise, s->frame.pattern[4 * i], s->frame.pattern[4 * i + 1]);
         const float du = rintf(disk.x * (radius * (p->fx * p->inv_fy))),
                     dv = rintf(-disk.y * radius);
         const float across = du * p->inv_fx * unit, up = dv * p->inv_fy * unit;
@@ -167,7 +162,7 @@ static void to_texel(float across, float down, float step[2])
 }
 
 /* The surface at a step from (x, y) in a layer; INFINITY where there is none. */
-static float depth_at(const statement *s, int32_t layer, int32_t x, int32_t y,
+static float depth_at(const reference *s, int32_t layer, int32_t x, int32_t y,
                       const float step[2])
 {
     const float u = (float)x + step[0], v = (float)y + step[1];
@@ -183,7 +178,7 @@ typedef struct slice {
 } slice;
 
 /* The point v from P, at `offset` on the image plane, may raise a slice's horizon. */
-static void raise_horizon(slice *walk, const crv__params *p, crv__vec3 ray, crv__vec3 n,
+static void raise_horizon(slice *sum, const crv__params *p, crv__vec3 ray, crv__vec3 n,
                           crv__vec3 offset, crv__vec3 v)
 {
     const float r = sqrtf(crv__dot(v, v));
@@ -198,15 +193,15 @@ static void raise_horizon(slice *walk, const crv__params *p, crv__vec3 ray, crv_
     if (cosine * p->cos_bias <= sine * p->sin_bias)
         return;
     const float h = v.z / r - (sine * p->cos_bias + cosine * p->sin_bias);
-    if (h <= walk->horizon)
+    if (h <= sum->horizon)
         return;
-    walk->weight = crv__falloff(p, r * p->inv_radius);
-    walk->occlusion += (h - walk->horizon) * walk->weight;
-    walk->horizon = h;
+    sum->weight = crv__falloff(p, r * p->inv_radius);
+    sum->occlusion += (h - sum->horizon) * sum->weight;
+    sum->horizon = h;
 }
 
 /* methods/hbao.c with samples where another radius and the grid put them. */
-static float hbao(const statement *s, int32_t x, int32_t y, float radius)
+static float hbao(const reference *s, int32_t x, int32_t y, float radius)
 {
     const crv__params *p = &s->params;
     const crv__noise_texel *noise = crv__noise_at(&s->frame, x, y);
@@ -217,7 +212,7 @@ static float hbao(const statement *s, int32_t x, int32_t y, float radius)
     float occlusion = 0;
     for (int32_t k = 0; k < p->directions; k++) {
         const crv__vec2 to = crv__direction(&s->frame, noise, k);
-        slice walk = {0, 0, 0};
+        slice sum = {0, 0, 0};
         for (int32_t i = 0; i < p->steps; i++) {
             float t = ((float)i + 0.5f + 0.5f * noise->beta) / (float)p->steps, step[2];
             t *= p->spacing == CRV_SPACING_QUADRATIC ? t : 1;
@@ -228,20 +223,20 @@ static float hbao(const statement *s, int32_t x, int32_t y, float radius)
                  layer++) {
                 const float z = depth_at(s, layer, x, y, step);
                 if (z < INFINITY)
-                    raise_horizon(&walk, p, ray, n, offset,
+                    raise_horizon(&sum, p, ray, n, offset,
                                   crv__sub(crv__unproject(p, x + (int32_t)step[0],
                                                           y + (int32_t)step[1], z),
                                            P));
             }
         }
-        occlusion += p->attenuation == CRV_ATTENUATION_SLAB ? walk.occlusion
-                                                            : walk.horizon * walk.weight;
+        occlusion += p->attenuation == CRV_ATTENUATION_SLAB ? sum.occlusion
+                                                            : sum.horizon * sum.weight;
     }
     return 1 - occlusion / (float)p->directions;
 }
 
-/* methods/alchemy.c likewise: so many of its points stand for another radius' disk. */
-static float alchemy(const statement *s, int32_t x, int32_t y, float radius)
+/* methods/alchemy.c likewise: its points stand for another radius' disk. */
+static float alchemy(const reference *s, int32_t x, int32_t y, float radius)
 {
     const crv__params *p = &s->params;
     const crv__noise_texel *noise = crv__noise_at(&s->frame, x, y);
@@ -255,7 +250,7 @@ static float alchemy(const statement *s, int32_t x, int32_t y, float radius)
     float sum = 0;
     for (int32_t i = 0; i < count; i++) {
         const crv__vec2 disk =
-            crv__turned(noise, s->pattern[4 * i], s->pattern[4 * i + 1]);
+            crv__turned(noise, s->frame.pattern[4 * i], s->frame.pattern[4 * i + 1]);
         float step[2];
         to_texel(disk.x * (radius * (p->fx * p->inv_fy)), -disk.y * radius, step);
         for (int32_t layer = 0; layer < p->layers && !(step[0] == 0 && step[1] == 0);
@@ -276,21 +271,22 @@ static float alchemy(const statement *s, int32_t x, int32_t y, float radius)
     return 1 - 2 * p->radius * sum / (float)count * ratio * ratio;
 }
 
-/* Whether plans like this one have the fast structure: see crv__fast_create(). */
+/* Whether plans like this one have the deinterleaved structure: see
+ * crv__deinterleaved_create(). */
 static int has_structure(const simd_case *c)
 {
     const crv_options *o = &c->options;
-    const int is_walk = strcmp(o->method->name, "hbao") == 0;
-    const int32_t samples = is_walk ? o->directions * o->steps : o->samples;
+    const int in_slices = strcmp(o->method->name, "hbao") == 0;
+    const int32_t samples = in_slices ? o->directions * o->steps : o->samples;
     const int paired = strcmp(o->method->name, "alchemy") != 0
-                       && (is_walk ? o->directions : o->samples) % 2 == 0;
+                       && (in_slices ? o->directions : o->samples) % 2 == 0;
     const double table = 48.0 * samples / (1 + paired) * 16 * OCTAVES * fineness(c);
     return (o->noise_size == 1 || o->noise_size == 2 || o->noise_size == 4)
            && c->desc.layers <= (crv__method_of(o->method)->volumetric ? 1 : 3)
            && table <= (2 << 20); /* more only where the picture is large */
 }
 
-static float value_at(statement *s, int32_t x, int32_t y, int structure, int *has_bucket)
+static float value_at(reference *s, int32_t x, int32_t y, int structure, int *has_bucket)
 {
     const char *name = s->c->options.method->name;
     float a = 1;
@@ -311,58 +307,6 @@ static float value_at(statement *s, int32_t x, int32_t y, int structure, int *ha
     }
     const crv_options *o = &s->c->options;
     return powf(fminf(fmaxf(1 - o->intensity * (1 - a), 0), 1), o->contrast);
-}
-
-/* The members of params that are not the G-buffer's, as a plan fills them. */
-static void fill_params(statement *s)
-{
-    const crv_options *o = &s->c->options;
-    const crv_gbuffer_desc *d = &s->c->desc;
-    crv__params *p = &s->params;
-    *p =
-        (crv__params){.radius = o->radius,
-                      .inv_radius = 1 / o->radius,
-                      .falloff = (int32_t)o->falloff,
-                      .tau = o->tau,
-                      .u = o->u,
-                      .max_radius_px = o->max_radius_px > 0 ? o->max_radius_px : INFINITY,
-                      .directions = o->directions,
-                      .steps = o->steps,
-                      .sin_bias = (float)sin((double)o->bias_deg * PI / 180),
-                      .cos_bias = (float)cos((double)o->bias_deg * PI / 180),
-                      .attenuation = (int32_t)o->attenuation,
-                      .noise_size = o->noise_size,
-                      .noise_x = wrapped(d->origin_x - d->guard_left, o->noise_size),
-                      .noise_y = wrapped(d->origin_y - d->guard_top, o->noise_size),
-                      .layers_solid = d->layer_kind == CRV_LAYERS_SOLID,
-                      .samples = o->samples,
-                      .bands = o->bands,
-                      .band_px = o->band_px,
-                      .alchemy_bias = o->alchemy_bias,
-                      .alchemy_eps = o->alchemy_eps,
-                      .spacing = (int32_t)o->spacing,
-                      .use_depth = 1};
-}
-
-static int fill_patterns(statement *s)
-{
-    const crv_options *o = &s->c->options;
-    const crv__method *method = crv__method_of(o->method);
-    uint32_t scratch[16];
-    s->directions = malloc((size_t)o->directions * 2 * sizeof(float));
-    s->pattern = calloc((size_t)o->samples, 4 * sizeof(float));
-    if (!s->directions || !s->pattern)
-        return 0;
-    for (int32_t k = 0; k < o->directions; k++) {
-        s->directions[2 * k] = (float)cos(2 * PI * k / o->directions);
-        s->directions[2 * k + 1] = (float)sin(2 * PI * k / o->directions);
-    }
-    if (method->pattern_fill)
-        method->pattern_fill(o, s->pattern);
-    crv__noise_fill(s->noise, o->noise_size,
-                    method->pattern_fill ? 2 * PI : 2 * PI / o->directions, o->seed,
-                    scratch);
-    return 1;
 }
 
 static crv_gbuffer *make_gbuffer(const simd_case *c, crv_context *context)
@@ -386,7 +330,7 @@ static crv_gbuffer *make_gbuffer(const simd_case *c, crv_context *context)
     return NULL;
 }
 
-static void fill_result(statement *s, float *out, int32_t *structured)
+static void fill_result(reference *s, float *out, int32_t *structured)
 {
     const crv_gbuffer_desc *d = &s->c->desc;
     const int structure = has_structure(s->c);
@@ -404,10 +348,10 @@ static void fill_result(statement *s, float *out, int32_t *structured)
     }
 }
 
-float *fast_statement(const simd_case *c, int32_t *structured)
+float *deinterleaved_reference(const simd_case *c, int32_t *structured)
 {
     const crv_gbuffer_desc *d = &c->desc;
-    statement s = {.c = c,
+    reference s = {.c = c,
                    .left = wrapped(d->origin_x - d->guard_left, SPAN),
                    .top = wrapped(d->origin_y - d->guard_top, PHASES)};
     crv_context *context = NULL;
@@ -415,21 +359,23 @@ float *fast_statement(const simd_case *c, int32_t *structured)
     crv_gbuffer *g =
         crv_context_create(NULL, &context) == CRV_OK ? make_gbuffer(c, context) : NULL;
     *structured = 0;
-    if (out && g && c->options.noise_size <= 4) {
-        fill_params(&s);
+    crv__setup setup = {0};
+    if (out && g) {
+        setup = crv__setup_make(context, &c->options, d);
+        crv__setup_params(&setup, &s.params);
         crv__gbuffer_params(g, &s.params);
-        if (fill_patterns(&s)) {
-            s.frame = (crv__frame){.params = &s.params,
-                                   .depth = g->depth,
-                                   .normal = g->normal,
-                                   .noise = s.noise,
-                                   .directions = s.directions,
-                                   .pattern = s.pattern};
-            fill_result(&s, out, structured);
-        }
+        s.params.use_depth = 1;
     }
-    free(s.directions);
-    free(s.pattern);
+    if (out && g && crv__setup_patterns(&setup) == CRV_OK) {
+        s.frame = (crv__frame){.params = &s.params,
+                               .depth = g->depth,
+                               .normal = g->normal,
+                               .noise = setup.noise,
+                               .directions = setup.directions,
+                               .pattern = setup.pattern};
+        fill_result(&s, out, structured);
+        crv__setup_release(&setup);
+    }
     crv_gbuffer_destroy(g);
     crv_context_destroy(context);
     return out;
