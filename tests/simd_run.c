@@ -6,6 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#if defined(_WIN32)
+#include <malloc.h>
+#endif
 
 enum { GUARD = 192, GUARD_BYTE = 0xa5 };
 
@@ -27,15 +30,33 @@ static unsigned char *user_part(const guarded *g)
     return (unsigned char *)g->block + GUARD;
 }
 
+static void *take_aligned(size_t alignment, size_t size)
+{
+#if defined(_WIN32)
+    return _aligned_malloc(size, alignment);
+#else
+    return aligned_alloc(alignment, size);
+#endif
+}
+
+static void give_aligned(void *block)
+{
+#if defined(_WIN32)
+    _aligned_free(block);
+#else
+    free(block);
+#endif
+}
+
 static void *allocate(void *user, size_t size, size_t alignment)
 {
     keeper *k = user;
     guarded *g = malloc(sizeof *g);
     const size_t all = (size + 2 * (size_t)GUARD + alignment - 1) / alignment * alignment;
-    void *block = GUARD % alignment == 0 ? aligned_alloc(alignment, all) : NULL;
+    void *block = GUARD % alignment == 0 ? take_aligned(alignment, all) : NULL;
     if (!g || !block) {
         free(g);
-        free(block);
+        give_aligned(block);
         return NULL;
     }
     memset(block, GUARD_BYTE, all);
@@ -67,7 +88,7 @@ static void release(void *user, void *memory, size_t size)
             continue;
         check_block(k, g);
         *link = g->next;
-        free(g->block);
+        give_aligned(g->block);
         free(g);
         return;
     }

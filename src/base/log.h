@@ -4,7 +4,10 @@
 
 #include "crevice/base.h"
 
-#if defined(__GNUC__)
+#if defined(__MINGW32__) && !defined(__clang__) /* its own printf, which knows %zu, %td  \
+                                                 */
+#define CRV__PRINTF(f, a) __attribute__((format(gnu_printf, f, a)))
+#elif defined(__GNUC__)
 #define CRV__PRINTF(f, a) __attribute__((format(printf, f, a)))
 #else
 #define CRV__PRINTF(f, a)

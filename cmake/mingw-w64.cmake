@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: MIT
+# 64-bit Windows by MinGW-w64; tests run under Wine. `./check --all` builds the library and
+# the test of its kernels with it.
+set(CMAKE_SYSTEM_NAME Windows)
+set(CMAKE_SYSTEM_PROCESSOR x86_64)
+set(CMAKE_C_COMPILER x86_64-w64-mingw32-gcc)
+set(CMAKE_FIND_ROOT_PATH /usr/x86_64-w64-mingw32)
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
+
+# Where Wine finds the compiler's own libraries (OpenMP's among them) and ours.
+execute_process(COMMAND ${CMAKE_C_COMPILER} -print-file-name=libgomp-1.dll
+    OUTPUT_VARIABLE runtime OUTPUT_STRIP_TRAILING_WHITESPACE)
+get_filename_component(runtime "${runtime}" DIRECTORY)
+set(CMAKE_CROSSCOMPILING_EMULATOR env WINEDEBUG=-all
+    "WINEPATH=${runtime}$<SEMICOLON>/usr/x86_64-w64-mingw32/lib$<SEMICOLON>${CMAKE_BINARY_DIR}/src"
+    wine)
