@@ -45,6 +45,17 @@ qemu-aarch64           qemu-user
 -                      libc6-dev-arm64-cross
 '
 
+# The same for 64-bit Windows, and for 32-bit x86.
+needs_windows='
+x86_64-w64-mingw32-gcc  gcc-mingw-w64-x86-64
+wine                    wine
+-                       wine64
+'
+needs_x86_32() # the compiler's 32-bit libraries carry its version in their name
+{
+    printf '%s\n' '- libc6-dev-i386' "- lib32gcc-$(gcc -dumpversion | sed 's/\..*//')-dev"
+}
+
 # needs_missing NEEDS: the packages of those needs that are not met, one a line.
 needs_missing()
 {

@@ -24,7 +24,8 @@ ROOMS = {
     "scene": {"include/crevice"},
     "tools/common": {"include/crevice", "io", "scene"},
     "tools/crevice": {"include/crevice", "io", "scene", "tools/common"},
-    "bench": {"include/crevice", "io", "scene"},
+    "tools/view": {"include/crevice", "io", "scene", "tools/common"},
+    "python": {"include/crevice"},
     "examples": {"include/crevice"},
 }
 
@@ -62,6 +63,8 @@ OWNED = {
     r"(openexr|OpenEXR|png|zlib)": "io",
     r"(embree\d*/|assimp/)": "scene",
     r"(cjson/|cJSON)": "tools/",
+    r"gtk/": "tools/view",
+    r"Python\.h": "python",
 }
 
 # Headers that the build makes, and their rooms.
@@ -113,14 +116,13 @@ def fault_of(root, path, name, quoted):
     if name.startswith("vulkan/") and room not in ("src/vulkan", "include/crevice", "examples"):
         return f"includes <{name}>, which belongs to src/vulkan/"
     for pattern, owner in OWNED.items():
-        if re.match(pattern, name) and not room.startswith(owner) and not (
-                owner == "tools/" and room == "bench"):
+        if re.match(pattern, name) and not (room + "/").startswith(owner):
             return f"includes <{name}>, which belongs to {owner.rstrip('/')}/"
     return None
 
 
 def sources(root):
-    for folder in ("include", "src", "io", "scene", "tools", "bench", "examples"):
+    for folder in ("include", "src", "io", "scene", "tools", "python", "examples"):
         for where, folders, names in os.walk(os.path.join(root, folder)):
             folders.sort()
             for name in sorted(names):

@@ -4,7 +4,8 @@
 
 #include "crevice/base.h"
 
-#if defined(__MINGW32__) && !defined(__clang__) /* its own printf, which knows %zu, %td  \
+#if defined(__MINGW32__)                                                                 \
+    && !defined(__clang__) /* its own printf, which knows %zu, %td  \
                                                  */
 #define CRV__PRINTF(f, a) __attribute__((format(gnu_printf, f, a)))
 #elif defined(__GNUC__)

@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Which room of libcrevice may use whose functions and tables: what the linker sees, where
+check_arrows.py sees what is included. Usage: check_symbols.py NM LIST; LIST is a file that
+names the library's objects, one a line. Exits 1 and lists what breaks a rule."""
+import re
+import subprocess
+import sys
+
+# Room: the rooms whose symbols it may use.
+ROOMS = {
+    "base": set(),
+    "core": {"base"},
+    "methods": {"base", "core"},
+    "filters": {"base", "core"},
+    "cpu/kernels": set(),
+    "cpu": {"base", "core", "cpu/kernels"},
+    "vulkan": {"base", "core"},
+    "backends": {"cpu", "vulkan"},  # src/backends.c: the list of them
+}
+
+# Tables that a room may name beyond its rooms: lists of methods, filters and backends.
+TABLES = {"core": re.compile(r"crv__(method|filter)_\w+$|crv__backends$")}
+
+
+def room_of(path):
+    """The room of an object file, from the part of its path that names its source."""
+    if "crevice_kernels_" in path:
+        return "cpu/kernels"
+    match = re.search(r"crevice\.dir/(?:\./)?(\w+)[/.]", path)
+    return match.group(1) if match and match.group(1) in ROOMS else None
+
+
+def symbols_of(nm, path):
+    """Names that an object defines, and names that it wants from others."""
+    lines = subprocess.run([nm, "-g", path], check=True, capture_output=True,
+                           text=True).stdout.splitlines()
+    pairs = [line.split()[-2:] for line in lines if line.strip()]
+    defined = {name for kind, name in pairs if kind != "U"}
+    wanted = {name for kind, name in pairs if kind == "U"}
+    return defined, wanted
+
+
+def main(nm, paths):
+    faults = 0
+    homes = {}
+    wants = []
+    for path in paths:
+        room = room_of(path)
+        if room is None:
+            print(f"{path}: lies in no room; add its folder to {__file__}")
+            faults += 1
+            continue
+        defined, wanted = symbols_of(nm, path)
+        homes.update((name, room) for name in defined)
+        wants.append((path, room, wanted))
+    arrows = 0
+    for path, room, wanted in wants:
+        for name in sorted(wanted & homes.keys()):
+            home = homes[name]
+            arrows += 1
+            table = TABLES.get(room)
+            if home != room and home not in ROOMS[room] and not (table and table.match(name)):
+                print(f"{path}: uses {name} of {home}/, which {room}/ may not")
+                faults += 1
+    if not arrows:
+        print("no object uses another's symbol; are these the library's objects?")
+        faults += 1
+    print(f"{len(wants)} objects, {arrows} arrows, {faults} faults")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit("usage: check_symbols.py NM LIST")
+    with open(sys.argv[2], encoding="utf-8") as listed:
+        sys.exit(main(sys.argv[1], [line.strip() for line in listed if line.strip()]))
