@@ -515,7 +515,7 @@ static crv_status draw_frame(renderer *r, int number)
 
 static void print_times(renderer *r)
 {
-    crv_vulkan_time times[CRV_VULKAN_MAX_TIMES];
+    crv_device_time times[CRV_MAX_DEVICE_TIMES];
     int32_t count = 0;
     if (crv_vulkan_pass_times(r->pass, (FRAMES - 1) % FRAMES_IN_FLIGHT, times, &count))
         return;

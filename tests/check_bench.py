@@ -55,7 +55,7 @@ def check_row(row, report):
         assert row["depth_layout"] is None and row["arithmetic"] is None, row
     else:
         assert row["isa"] is None and row["structure"] is None, row
-        assert row["depth_layout"] in ("plain", "deinterleaved", "levels"), row
+        assert row["depth_layout"] in ("linear", "deinterleaved", "levels"), row
         assert row["arithmetic"] in ("single", "half"), row
     if row["preset"] == "medium" and report["rows"][0]["preset"] == "medium":
         for key, value in OPTIONS.get(row["method"], {}).items():

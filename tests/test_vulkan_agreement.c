@@ -17,6 +17,8 @@
 #include <string.h>
 #include <time.h>
 
+#include "crevice/vulkan.h"
+
 /*
  * Both read the same texels and round sums otherwise. What differs by more than 2e-3 is a
  * sample at a limit or at the border of two texels: a device may round a division
@@ -30,7 +32,7 @@ typedef struct settings {
     uint64_t seed;
     const char *test; /* NULL: all */
     int32_t cases, only;
-    int32_t half, layout; /* as in crv_context_desc */
+    int32_t half, layout; /* as in crv_vulkan_context_set_plans() */
 } settings;
 
 static void print_errors(void *user, crv_log_level level, const char *line)
@@ -260,9 +262,12 @@ static crv_status make_context(crv_device device, const settings *s, crv_context
     desc.isa_mask = 1u << CRV_ISA_SCALAR;
     desc.exact = 1;
     desc.device = device;
-    desc.half_filters = s->half;
-    desc.depth_layout = (crv_depth_layout)s->layout;
-    return crv_context_create(&desc, out);
+    const crv_status status = crv_context_create(&desc, out);
+    if (status || device == CRV_DEVICE_CPU)
+        return status;
+    return crv_vulkan_context_set_plans(*out, (crv_vulkan_depth_layout)s->layout,
+                                        s->half ? CRV_VULKAN_HALF_ON
+                                                : CRV_VULKAN_HALF_OFF);
 }
 
 int main(int argc, char **argv)

@@ -241,7 +241,7 @@ static crv_status live(life *l)
     crv_gbuffer_desc_init(&size, sizeof size, WIDTH, HEIGHT);
     crv_context *context = NULL;
     crv_vulkan_pass *pass = NULL;
-    crv_vulkan_time times[CRV_VULKAN_MAX_TIMES];
+    crv_device_time times[CRV_MAX_DEVICE_TIMES];
     int32_t count = 0;
     crv_status status = crv_vulkan_context_create(&l->desc, &l->host, &context);
     if (status == CRV_OK)

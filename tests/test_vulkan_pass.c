@@ -148,7 +148,7 @@ static void times_are_of_every_pass(void **state)
     crv_context *context = scene_context(g, &log);
     const crv_options options = scene_options(e);
     crv_vulkan_pass_desc desc = scene_pass_desc(e);
-    crv_vulkan_time times[CRV_VULKAN_MAX_TIMES];
+    crv_device_time times[CRV_MAX_DEVICE_TIMES];
     crv_vulkan_pass *pass = NULL, *plain = NULL;
     int32_t count = -1;
     scene *s = malloc(sizeof *s);

@@ -44,7 +44,7 @@ good bench builtin:corner --device vulkan --size 64x36 --seconds 0 --repeats 1 -
     --method hbao --filter bilateral13 --depth-layout all --arithmetic all
 python3 -c 'import json, sys
 rows = json.load(sys.stdin)["rows"]
-extra = {"plain": [], "deinterleaved": ["deinterleave"], "levels": ["levels"]}
+extra = {"linear": [], "deinterleaved": ["deinterleave"], "levels": ["levels"]}
 for layout, steps in extra.items():
     for arithmetic in ("single", "half"):
         mine = [r for r in rows

@@ -16,7 +16,7 @@ add_test(NAME test_vulkan_agreement COMMAND test_vulkan_agreement --seed 1
 # and is run with one compiler (./check).
 
 # Other ways to the same picture: half floats, depth taken apart.
-add_test(NAME vulkan_half_apart COMMAND test_vulkan_agreement --seed 1 --half 1 --layout 1
+add_test(NAME vulkan_half_deinterleaved COMMAND test_vulkan_agreement --seed 1 --half 1 --layout 1
     --cases ${crevice_vulkan_cases})
 
 # The suites of the CPU, unchanged.
@@ -27,7 +27,7 @@ foreach(suite conformance closed_forms filters)
 endforeach()
 set_tests_properties(test_vulkan_agreement PROPERTIES
     LABELS vulkan TIMEOUT 600 SKIP_RETURN_CODE 77)
-set_tests_properties(vulkan_half_apart ${crevice_vulkan_tests} PROPERTIES
+set_tests_properties(vulkan_half_deinterleaved ${crevice_vulkan_tests} PROPERTIES
     LABELS "vulkan;once" TIMEOUT 600 SKIP_RETURN_CODE 77)
 
 # vulkan_validated(NAME FEATURES PROGRAM...): under the validation layer.

@@ -40,16 +40,6 @@ typedef enum crv_device {
     CRV_DEVICE_VULKAN = 1
 } crv_device;
 
-/* How depth lies in a Vulkan device's memory (docs/gpu.md). */
-typedef enum crv_depth_layout {
-    CRV_DEPTH_PLAIN = 0, /* an image */
-    /* Taken apart by the phases of the noise tile, of 2 to 8 px: the same picture. */
-    CRV_DEPTH_APART = 1,
-    /* hbao and alchemy read coarser levels from 16 px on: another draw of the estimate,
-     * as near to the truth. */
-    CRV_DEPTH_LEVELS = 2
-} crv_depth_layout;
-
 /* Fill it with crv_context_desc_init(), then change what differs. */
 typedef struct crv_context_desc {
     size_t struct_size;      /* set by crv_context_desc_init() */
@@ -66,10 +56,6 @@ typedef struct crv_context_desc {
     int32_t exact;
     crv_device device;    /* default CRV_DEVICE_CPU */
     int32_t device_index; /* Vulkan: as crv_vulkan_device_info() counts; default 0 */
-    /* Vulkan, for plans; crv_vulkan_pass_desc has the same for passes. 1: filters compute
-     * in half floats where the device can; within 2e-3 of the others. Default 0. */
-    int32_t half_filters;
-    crv_depth_layout depth_layout; /* Vulkan, for plans, likewise; default PLAIN */
 } crv_context_desc;
 
 /* Sets the defaults. Pass sizeof *desc as struct_size (base.h). Errors: INVALID_ARGUMENT.
@@ -151,20 +137,20 @@ CRV_API crv_status crv_plan_run(crv_plan *plan, crv_gbuffer *gbuffer,
 CRV_API crv_status crv_plan_filter(crv_plan *plan, crv_gbuffer *gbuffer,
                                    const crv_const_image *input, const crv_image *result);
 
-/* The time that a step of a run took on the device. */
+/* The time that a step took on the device. */
 typedef struct crv_device_time {
     const char *name; /* "upload", "deinterleave", "levels", the method's or filter's
                          name, "download"; static */
     double time_ms;
 } crv_device_time;
 
-#define CRV_MAX_DEVICE_TIMES 8
+#define CRV_MAX_DEVICE_TIMES 16
 
 /*
  * The steps of the plan's last run by the device's own clock. times: room for
- * CRV_MAX_DEVICE_TIMES; *count says how many were written. Errors: INVALID_ARGUMENT;
- * NOT_READY before the first run that ended well; UNSUPPORTED on the CPU, or where the
- * device has no timestamps; DEVICE where its driver fails.
+ * CRV_MAX_DEVICE_TIMES; *count: the number written. Errors: INVALID_ARGUMENT;
+ * NOT_READY before the first run that ended well; UNSUPPORTED on the CPU, or if the
+ * device has no timestamps; DEVICE if its driver fails.
  */
 CRV_API crv_status crv_plan_device_times(const crv_plan *plan, crv_device_time *times,
                                          int32_t *count);

@@ -74,13 +74,6 @@ crv_status crv__context_create_bare(const crv_context_desc *desc, crv_context **
     if (desc->exact != 0 && desc->exact != 1)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "context: exact is %d; use 0 or 1", desc->exact);
-    if (desc->half_filters != 0 && desc->half_filters != 1)
-        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
-                         "context: half_filters is %d; use 0 or 1", desc->half_filters);
-    if (desc->depth_layout < CRV_DEPTH_PLAIN || desc->depth_layout > CRV_DEPTH_LEVELS)
-        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
-                         "context: depth_layout is %d; use one of crv_depth_layout",
-                         (int)desc->depth_layout);
     crv_allocator allocator =
         desc->allocator.allocate ? desc->allocator : crv__default_allocator();
     crv_context *context = crv__allocate(&allocator, 1, sizeof *context);
@@ -92,8 +85,6 @@ crv_status crv__context_create_bare(const crv_context_desc *desc, crv_context **
                              .threads = desc->threads,
                              .isa_mask = desc->isa_mask ? desc->isa_mask : UINT32_MAX,
                              .exact = desc->exact,
-                             .half_filters = desc->half_filters,
-                             .depth_layout = desc->depth_layout,
                              .backend = crv__backends[0],
                              .conversions = &crv__conversions_specified};
     status = context->backend->open(context, 0);

@@ -14,10 +14,8 @@ struct crv_context {
     crv_allocator allocator;
     crv_parallel parallel;
     int32_t threads;
-    uint32_t isa_mask;             /* never 0 */
-    int32_t exact;                 /* 0 or 1 */
-    int half_filters;              /* on a device, as in crv_context_desc */
-    crv_depth_layout depth_layout; /* likewise */
+    uint32_t isa_mask; /* never 0 */
+    int32_t exact;     /* 0 or 1 */
     const crv__backend *backend;
     const struct crv__conversions *conversions; /* on the host, whatever the backend */
     crv_isa isa;                                /* of the host's kernels */

@@ -2,6 +2,7 @@
 #include "core/noise.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Van der Corput's radical inverse. */
 static double radical_inverse(uint32_t i, uint32_t base)
@@ -49,6 +50,17 @@ static void rank_texels(uint32_t *rank, uint32_t size, uint32_t seed)
     }
 }
 
+static float below_one(double x)
+{
+    return (float)fmin(x, 1 - 1e-6);
+}
+
+/* In (-1, 1), of a number in [0, 1]. */
+static double jitter(double b)
+{
+    return fmin(fmax(2 * b - 1, -1 + 1e-6), 1 - 1e-6);
+}
+
 void crv__noise_fill(crv__noise_texel *tile, int32_t size, double sector_rad,
                      int32_t seed, uint32_t *scratch)
 {
@@ -61,14 +73,36 @@ void crv__noise_fill(crv__noise_texel *tile, int32_t size, double sector_rad,
         const uint32_t rank = scratch[i];
         double a = fmod((rank + 0.5) / count + shift_alpha, 1);
         double b = fmod(radical_inverse(rank, 2) + 0.5 / count + shift_beta, 1);
-        double beta = fmin(fmax(2 * b - 1, -1 + 1e-6), 1 - 1e-6);
+        const double beta = jitter(b);
         const double sector =
             fmod(radical_inverse(rank, 3) + 0.5 / count + shift_sector, 1);
         tile[i] = (crv__noise_texel){
             .cos_alpha = (float)cos(a * sector_rad),
             .sin_alpha = (float)sin(a * sector_rad),
             .beta = (float)beta,
-            .sector_offset = (float)fmin(sector, 1 - 1e-6),
+            .sector_offset = below_one(sector),
         };
+    }
+}
+
+/* The additive recurrence on the powers of 1/g, g the real root of g^4 = g + 1. */
+void crv__noise_advance(const crv__noise_texel *tile, int32_t size, double sector_rad,
+                        uint32_t index, crv__noise_texel *out)
+{
+    const double g = 1.2207440846057596;
+    const double turn = fmod(index / g, 1) * sector_rad;
+    const double shift_beta = fmod(index / (g * g), 1),
+                 shift_sector = fmod(index / (g * g * g), 1);
+    const double c = cos(turn), s = sin(turn);
+    const size_t count = (size_t)size * (size_t)size;
+    memcpy(out, tile, count * sizeof *out);
+    for (size_t i = 0; index > 0 && i < count; i++) {
+        const double x = (double)tile[i].cos_alpha, y = (double)tile[i].sin_alpha;
+        const double b = fmod(0.5 + 0.5 * (double)tile[i].beta + shift_beta, 1);
+        out[i].cos_alpha = (float)(x * c - y * s);
+        out[i].sin_alpha = (float)(x * s + y * c);
+        out[i].beta = (float)jitter(b);
+        out[i].sector_offset =
+            below_one(fmod((double)tile[i].sector_offset + shift_sector, 1));
     }
 }

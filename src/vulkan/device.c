@@ -49,6 +49,20 @@ crv_status crv__device_fail(const crv__device *d, VkResult result, const char *w
                      result_name(result), (int)result);
 }
 
+void crv__device_name(const crv__device *d, VkObjectType type, uint64_t handle,
+                      const char *name)
+{
+    char text[64];
+    snprintf(text, sizeof text, "crevice %s", name);
+    const VkDebugUtilsObjectNameInfoEXT info = {
+        .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
+        .objectType = type,
+        .objectHandle = handle,
+        .pObjectName = text};
+    if (d->debug.set_name)
+        d->debug.set_name(d->device, &info); /* a failure costs the name only */
+}
+
 /* ---- what a device must have ---- */
 
 static int compute_family(const crv__device *d, VkPhysicalDevice physical)
@@ -82,7 +96,7 @@ static const char *lacking(const crv__device *d, VkPhysicalDevice physical)
     return compute_family(d, physical) == NO_FAMILY ? "it has no queue for compute" : "";
 }
 
-static int can_half(const crv__device *d)
+static bool can_half(const crv__device *d)
 {
     VkPhysicalDeviceVulkan12Features v12 = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
@@ -130,7 +144,7 @@ static crv_status open_instance(crv__device *d)
     const VkResult result = d->vk.CreateInstance(&info, d->callbacks, &d->instance);
     if (result)
         return crv__device_fail(d, result, "instance");
-    d->owned = 1;
+    d->owned = true;
     return crv__table_load_instance(&d->vk, d->instance, &d->logger);
 }
 
@@ -243,6 +257,7 @@ static crv_status open_host(crv__device *d, const crv_vulkan_host *host)
     d->device = host->device;
     d->queue = host->queue;
     d->family = host->queue_family;
+    d->cache = host->pipeline_cache;
     if (!function)
         d->loader = crv__loader_open(&function);
     if (!function)
@@ -251,6 +266,8 @@ static crv_status open_host(crv__device *d, const crv_vulkan_host *host)
                          "host.get_instance_proc_addr");
     d->vk.GetInstanceProcAddr = function;
     crv_status status = crv__table_load_instance(&d->vk, d->instance, &d->logger);
+    if (host->has_debug_utils)
+        d->debug = crv__debug_load(&d->vk, d->instance);
     if (status == CRV_OK)
         status = crv__table_load_device(&d->vk, d->device, &d->logger);
     if (status)
@@ -301,6 +318,7 @@ static crv__device *device_make(const crv_logger *logger, const crv_allocator *a
     if (d) {
         d->logger = *logger;
         d->allocator = *allocator;
+        d->plan_half = CRV_VULKAN_HALF_OFF;
     } else {
         crv__fail(logger, CRV_ERROR_OUT_OF_MEMORY, "vulkan: out of memory");
     }
@@ -354,6 +372,27 @@ crv_status crv_vulkan_context_create(const crv_context_desc *desc,
     else
         *out = context;
     return status;
+}
+
+crv_status crv_vulkan_context_set_plans(crv_context *context,
+                                        crv_vulkan_depth_layout depth_layout,
+                                        crv_vulkan_half half_filters)
+{
+    if (!context)
+        return CRV_ERROR_INVALID_ARGUMENT;
+    crv__device *d = crv__device_of(context);
+    if (!d)
+        return crv__fail(&context->logger, CRV_ERROR_UNSUPPORTED,
+                         "vulkan: the context has no Vulkan device; make it with one");
+    if (depth_layout < CRV_VULKAN_DEPTH_LINEAR || depth_layout > CRV_VULKAN_DEPTH_LEVELS
+        || half_filters < CRV_VULKAN_HALF_AUTO || half_filters > CRV_VULKAN_HALF_ON)
+        return crv__fail(&d->logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "vulkan: depth layout %d or half filters %d does not exist; use "
+                         "crv_vulkan_depth_layout and crv_vulkan_half",
+                         (int)depth_layout, (int)half_filters);
+    d->plan_layout = depth_layout;
+    d->plan_half = half_filters;
+    return CRV_OK;
 }
 
 static void describe(const crv__device *d, crv_device_info *info)

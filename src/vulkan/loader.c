@@ -92,3 +92,14 @@ crv_status crv__table_load_device(crv__vk_table *t, VkDevice device,
 #undef LOAD
     return CRV_OK;
 }
+
+crv__debug_table crv__debug_load(const crv__vk_table *t, VkInstance instance)
+{
+    return (crv__debug_table){
+        .set_name = (PFN_vkSetDebugUtilsObjectNameEXT)t->GetInstanceProcAddr(
+            instance, "vkSetDebugUtilsObjectNameEXT"),
+        .begin_label = (PFN_vkCmdBeginDebugUtilsLabelEXT)t->GetInstanceProcAddr(
+            instance, "vkCmdBeginDebugUtilsLabelEXT"),
+        .end_label = (PFN_vkCmdEndDebugUtilsLabelEXT)t->GetInstanceProcAddr(
+            instance, "vkCmdEndDebugUtilsLabelEXT")};
+}

@@ -87,6 +87,15 @@ typedef struct crv__vk_table {
 #undef CRV__MEMBER
 } crv__vk_table;
 
+/* Of VK_EXT_debug_utils; NULL unless the host has it. */
+typedef struct crv__debug_table {
+    PFN_vkSetDebugUtilsObjectNameEXT set_name;
+    PFN_vkCmdBeginDebugUtilsLabelEXT begin_label;
+    PFN_vkCmdEndDebugUtilsLabelEXT end_label;
+} crv__debug_table;
+
+crv__debug_table crv__debug_load(const crv__vk_table *t, VkInstance instance);
+
 /* The loader that is installed on this machine, for contexts that make their own device.
  * NULL where there is none. */
 void *crv__loader_open(PFN_vkGetInstanceProcAddr *function);

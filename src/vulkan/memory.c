@@ -44,8 +44,8 @@ static VkResult allocate(const crv__device *d, const VkMemoryRequirements *requi
     return result;
 }
 
-crv_status crv__buffer_create(crv__buffer *b, const crv__device *d, VkDeviceSize size,
-                              VkBufferUsageFlags usage)
+crv_status crv__buffer_create(crv__buffer *b, const crv__device *d, const char *name,
+                              VkDeviceSize size, VkBufferUsageFlags usage)
 {
     const VkMemoryPropertyFlags needed =
         VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
@@ -54,6 +54,7 @@ crv_status crv__buffer_create(crv__buffer *b, const crv__device *d, VkDeviceSize
     VkResult result = d->vk.CreateBuffer(d->device, &info, d->callbacks, &b->buffer);
     if (result)
         return crv__device_fail(d, result, "buffer");
+    crv__device_name(d, VK_OBJECT_TYPE_BUFFER, (uint64_t)b->buffer, name);
     VkMemoryRequirements requirements;
     d->vk.GetBufferMemoryRequirements(d->device, b->buffer, &requirements);
     b->size = requirements.size;
@@ -80,7 +81,10 @@ static VkResult create_view(const crv__device *d, const crv__image *i,
                                         .viewType = type,
                                         .format = i->desc.format,
                                         .subresourceRange = range};
-    return d->vk.CreateImageView(d->device, &info, d->callbacks, out);
+    const VkResult result = d->vk.CreateImageView(d->device, &info, d->callbacks, out);
+    if (result == VK_SUCCESS)
+        crv__device_name(d, VK_OBJECT_TYPE_IMAGE_VIEW, (uint64_t)*out, i->desc.name);
+    return result;
 }
 
 static VkResult create_views(const crv__device *d, crv__image *i)
@@ -122,6 +126,7 @@ crv_status crv__image_create(crv__image *i, const crv__device *d,
     VkResult result = d->vk.CreateImage(d->device, &info, d->callbacks, &i->image);
     if (result)
         return crv__device_fail(d, result, "image");
+    crv__device_name(d, VK_OBJECT_TYPE_IMAGE, (uint64_t)i->image, desc->name);
     VkMemoryRequirements requirements;
     d->vk.GetImageMemoryRequirements(d->device, i->image, &requirements);
     i->size = requirements.size;

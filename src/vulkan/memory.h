@@ -11,14 +11,15 @@ typedef struct crv__buffer {
     VkDeviceSize size;      /* of the memory */
 } crv__buffer;
 
-/* Host-visible, mapped and coherent. */
-crv_status crv__buffer_create(crv__buffer *b, const crv__device *d, VkDeviceSize size,
-                              VkBufferUsageFlags usage);
+/* Host-visible, mapped and coherent. name: for debuggers. */
+crv_status crv__buffer_create(crv__buffer *b, const crv__device *d, const char *name,
+                              VkDeviceSize size, VkBufferUsageFlags usage);
 void crv__buffer_destroy(crv__buffer *b, const crv__device *d);
 
 enum { CRV__MOST_LEVELS = 6 };
 
 typedef struct crv__image_desc {
+    const char *name; /* for debuggers */
     VkFormat format;
     int32_t width, height;
     int32_t layers; /* 0: a plain image; else an array */

@@ -23,7 +23,7 @@ void crv__specs_clear(int32_t specs[CRV__SPECS], int32_t group)
     for (int i = 0; i < CRV__SPECS; i++)
         specs[i] = -1;
     specs[CRV__SPEC_SIZE_X] = specs[CRV__SPEC_SIZE_Y] = group;
-    specs[CRV__SPEC_INTERLEAVE] = specs[CRV__SPEC_DEPTH_EDGE] = 1;
+    specs[CRV__SPEC_PIXEL_STRIDE] = specs[CRV__SPEC_DEPTH_EDGE] = 1;
     specs[CRV__SPEC_NORMALS_OCTAHEDRAL] = specs[CRV__SPEC_LOD_PX] = 0;
     specs[CRV__SPEC_IN_PARTS] = 0;
 }
@@ -115,9 +115,12 @@ static VkResult compile(const crv__device *d, int32_t shader,
         d->vk.CreateShaderModule(d->device, &module, d->callbacks, &info.stage.module);
     if (result)
         return result;
-    result = d->vk.CreateComputePipelines(d->device, VK_NULL_HANDLE, 1, &info,
-                                          d->callbacks, out);
+    result =
+        d->vk.CreateComputePipelines(d->device, d->cache, 1, &info, d->callbacks, out);
     d->vk.DestroyShaderModule(d->device, info.stage.module, d->callbacks);
+    if (result == VK_SUCCESS)
+        crv__device_name(d, VK_OBJECT_TYPE_PIPELINE, (uint64_t)*out,
+                         crv__shaders[shader].name);
     return result;
 }
 

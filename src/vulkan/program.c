@@ -4,9 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Offsets of storage buffers: every device takes a multiple of this. */
-enum { OFFSET_ALIGNMENT = 256 };
-
 /*
  * How often loops may turn for a pixel in one dispatch: as many fetches take a tenth of a
  * second for a frame of 4K where a device makes 10^12 a second, and one that is ten times
@@ -15,15 +12,15 @@ enum { OFFSET_ALIGNMENT = 256 };
  */
 enum { PART_ROUNDS = 16384, LAVAPIPE_ROUNDS = 65535 };
 
-static int has_option(const crv__setup *setup, const char *key)
+static bool has_option(const crv__setup *setup, const char *key)
 {
     return crv_option_applies(crv_option_find(key), &setup->method->info, NULL);
 }
 
-/* Directions or points: what an estimate is taken apart by. */
+/* Directions or points: what the parts of an estimate are made of. */
 static int32_t unit_count(const crv__setup *setup)
 {
-    const int has_points = setup->pattern || setup->method->pattern_fill;
+    const bool has_points = setup->pattern || setup->method->pattern_fill;
     return has_points ? setup->options.samples : setup->options.directions;
 }
 
@@ -43,11 +40,11 @@ static int32_t part_size(const crv__setup *setup)
     return units < 1 ? 1 : units < all ? units : all;
 }
 
-int32_t crv__apart_edge(const crv__device *d, const crv__setup *setup)
+int32_t crv__deinterleave_edge(const crv__device *d, const crv__setup *setup)
 {
     const int32_t edge = setup->options.noise_size;
     const uint32_t layers = (uint32_t)(edge * edge * setup->desc.layers);
-    const int fits =
+    const bool fits =
         edge >= 2 && edge <= 8 && layers <= d->properties.limits.maxImageArrayLayers;
     return fits ? edge : 1;
 }
@@ -72,7 +69,7 @@ crv_status crv__setup_check(const crv__device *d, const crv__setup *setup)
 static void clear_specs(crv__pipeline *pipeline, int32_t group, int32_t specs[CRV__SPECS])
 {
     *pipeline =
-        (crv__pipeline){.group = group, .lanes_x = 1, .lanes_y = 1, .interleave = 1};
+        (crv__pipeline){.group = group, .lanes_x = 1, .lanes_y = 1, .pixel_stride = 1};
     crv__specs_clear(specs, group);
 }
 
@@ -81,8 +78,8 @@ static crv_status take_estimate(crv__program *p, const crv__setup *setup, int32_
     const crv_options *o = &setup->options;
     int32_t specs[CRV__SPECS];
     clear_specs(&p->estimate, group, specs);
-    specs[CRV__SPEC_INTERLEAVE] = specs[CRV__SPEC_DEPTH_EDGE] = p->estimate.interleave =
-        p->desc.edge;
+    specs[CRV__SPEC_PIXEL_STRIDE] = specs[CRV__SPEC_DEPTH_EDGE] =
+        p->estimate.pixel_stride = p->desc.edge;
     specs[CRV__SPEC_LOD_PX] = p->desc.level_px;
     specs[CRV__SPEC_IN_PARTS] = p->parts > 1;
     specs[CRV__SPEC_FALLOFF] = (int32_t)o->falloff;
@@ -102,9 +99,9 @@ static crv_status take_estimate(crv__program *p, const crv__setup *setup, int32_
 
 /* box4 takes taps whole or not at all, which the error of a half float would turn over:
  * 1.8 % of the pixels of a noisy frame differed by more than 2e-3. */
-static int has_half(const crv__filter *filter)
+static bool has_half(const crv_filter *filter)
 {
-    return strcmp(filter->info.name, "box4") != 0;
+    return strcmp(filter->name, "box4") != 0;
 }
 
 /*
@@ -112,10 +109,10 @@ static int has_half(const crv__filter *filter)
  * an angle by a share of 2^-10 over the angle. half.glsl leaves out surfaces without a
  * normal, which angles beyond 90 degrees let in; at 180 normals do not count.
  */
-static int uses_half(const crv__program *p, const crv__setup *setup)
+bool crv__program_uses_half(const crv__program *p, const crv_options *options)
 {
-    const float least_deg = 10, most_deg = 90, angle = setup->options.filter_normal;
-    return p->desc.half && p->device->has_half && has_half(setup->filter)
+    const float least_deg = 10, most_deg = 90, angle = options->filter_normal;
+    return p->desc.half && p->device->has_half && has_half(options->filter)
            && ((angle >= least_deg && angle <= most_deg) || angle >= 180);
 }
 
@@ -126,10 +123,10 @@ static crv_status take_filter(crv__program *p, const crv__setup *setup, int32_t 
     clear_specs(&p->filter[pass], group, specs);
     specs[CRV__SPEC_FILTER_SLOPE] = setup->options.filter_slope;
     specs[CRV__SPEC_FILTER_PASS] = pass;
+    const bool half = crv__program_uses_half(p, &setup->options);
     char name[32];
-    snprintf(name, sizeof name, "%s%s", setup->filter->info.name,
-             uses_half(p, setup) ? "_half" : "");
-    if (uses_half(p, setup)) /* lane_step() of the shaders */
+    snprintf(name, sizeof name, "%s%s", setup->filter->info.name, half ? "_half" : "");
+    if (half) /* lane_step() of the shaders */
         *(pass == 0 ? &p->filter[pass].lanes_y : &p->filter[pass].lanes_x) = 2;
     return crv__pipeline_take(p->device, name, specs, &p->filter[pass].pipeline);
 }
@@ -139,7 +136,8 @@ static crv_status take_other(crv__program *p, const char *shader, int32_t group,
 {
     int32_t specs[CRV__SPECS];
     clear_specs(out, group, specs);
-    specs[CRV__SPEC_INTERLEAVE] = specs[CRV__SPEC_DEPTH_EDGE] = out->interleave = edge;
+    specs[CRV__SPEC_PIXEL_STRIDE] = specs[CRV__SPEC_DEPTH_EDGE] = out->pixel_stride =
+        edge;
     return crv__pipeline_take(p->device, shader, specs, &out->pipeline);
 }
 
@@ -166,38 +164,6 @@ static crv_status take_pipelines(crv__program *p, const crv__setup *setup)
     return status;
 }
 
-static VkDeviceSize aligned(VkDeviceSize size)
-{
-    return (size + OFFSET_ALIGNMENT - 1) / OFFSET_ALIGNMENT * OFFSET_ALIGNMENT;
-}
-
-static crv_status create_constants(crv__program *p, const crv__setup *setup)
-{
-    const size_t noise = (size_t)setup->options.noise_size
-                         * (size_t)setup->options.noise_size * sizeof *setup->noise;
-    const size_t directions = (size_t)setup->options.directions * 2 * sizeof(float);
-    /* Methods without points still have the binding. */
-    const size_t pattern =
-        setup->pattern ? (size_t)setup->options.samples * 4 * sizeof(float) : 0;
-    const VkDeviceSize second = aligned(noise), third = second + aligned(directions);
-    const crv_status status =
-        crv__buffer_create(&p->constants, p->device, third + aligned(pattern + 16),
-                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-    if (status)
-        return status;
-    char *bytes = p->constants.block.mapped;
-    memcpy(bytes, setup->noise, noise);
-    memcpy(bytes + second, setup->directions, directions);
-    if (setup->pattern)
-        memcpy(bytes + third, setup->pattern, pattern);
-    const VkBuffer buffer = p->constants.buffer;
-    p->table[CRV__BIND_NOISE] = (VkDescriptorBufferInfo){buffer, 0, noise};
-    p->table[CRV__BIND_DIRECTIONS] = (VkDescriptorBufferInfo){buffer, second, directions};
-    p->table[CRV__BIND_PATTERN] =
-        (VkDescriptorBufferInfo){buffer, third, pattern ? pattern : 16};
-    return CRV_OK;
-}
-
 crv_status crv__program_create(crv__program *p, const crv__device *device,
                                const crv__setup *setup, const crv__program_desc *desc)
 {
@@ -207,8 +173,7 @@ crv_status crv__program_create(crv__program *p, const crv__device *device,
                         .parts = (unit_count(setup) + size - 1) / size,
                         .part_size = size,
                         .passes = setup->filter ? setup->filter->passes : 0};
-    const crv_status status = create_constants(p, setup);
-    return status ? status : take_pipelines(p, setup);
+    return take_pipelines(p, setup);
 }
 
 void crv__program_destroy(crv__program *p)
@@ -222,6 +187,5 @@ void crv__program_destroy(crv__program *p)
                                     p->prefilter.pipeline};
     for (size_t i = 0; i < sizeof pipelines / sizeof pipelines[0]; i++)
         crv__pipeline_give(d, pipelines[i]);
-    crv__buffer_destroy(&p->constants, d);
     *p = (crv__program){0};
 }

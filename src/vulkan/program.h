@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The pipelines of one method and filter, and the constant buffer that they share. */
+/* The pipelines of one method and filter. */
 #ifndef CRV_VULKAN_PROGRAM_H
 #define CRV_VULKAN_PROGRAM_H
 
@@ -13,41 +13,41 @@ typedef struct crv__pipeline {
     VkPipeline pipeline;
     int32_t group;            /* edge of a workgroup, invocations */
     int32_t lanes_x, lanes_y; /* pixels of an invocation */
-    int32_t interleave;       /* pixels from one invocation to the next */
+    int32_t pixel_stride;     /* pixels from one invocation to the next */
 } crv__pipeline;
 
 /* What a program does beside estimate and filter. */
 typedef struct crv__program_desc {
-    int converts;     /* 0 or 1: the host's images are converted on the device */
-    int32_t edge;     /* depth is taken apart by so many px; 1: it is not */
-    int half;         /* 0 or 1: filters compute in half floats where the device can */
-    int32_t level_px; /* from where coarser levels of depth are read; 0: never */
+    bool converts; /* the host's images are converted on the device */
+    int32_t edge;  /* of the phases by which depth is deinterleaved, px; 1: it is not */
+    bool half;     /* filters compute in half floats if the device can */
+    int32_t level_px; /* distance from which coarser levels of depth are read; 0: never */
 } crv__program_desc;
 
 typedef struct crv__program {
     const crv__device *device;
-    /* Only where the host's images are converted: the first layer with the normals, the
+    /* Only if the host's images are converted: the first layer with the normals, the
      * other layers. */
     crv__pipeline convert, depth;
-    crv__pipeline deinterleave, prefilter; /* only where the desc says so */
+    crv__pipeline deinterleave, prefilter; /* only if the desc says so */
     crv__pipeline estimate, filter[CRV__MOST_PASSES];
     crv__program_desc desc;
-    /* The estimate takes so many dispatches of so many directions or points. */
-    int32_t parts, part_size;
-    int32_t passes;                                /* of the filter */
-    crv__buffer constants;                         /* noise, directions, pattern */
-    VkDescriptorBufferInfo table[CRV__BIND_DEPTH]; /* where they are, by binding */
+    int32_t parts;     /* dispatches of the estimate */
+    int32_t part_size; /* directions or points in each */
+    int32_t passes;    /* of the filter */
 } crv__program;
 
-/* UNSUPPORTED with a line where the device cannot compute it. */
+/* UNSUPPORTED with a line if the device cannot compute it. */
 crv_status crv__setup_check(const crv__device *d, const crv__setup *setup);
 
-/* By how many px depth is taken apart for this setup; 1: it cannot be. A workgroup then
- * has one place of the noise tile. */
-int32_t crv__apart_edge(const crv__device *d, const crv__setup *setup);
+/* The edge of the phases by which depth can be deinterleaved, px; 1: it cannot be. All
+ * pixels of a workgroup then have one place in the noise tile. */
+int32_t crv__deinterleave_edge(const crv__device *d, const crv__setup *setup);
 
-/* The setup has its patterns. Where it fails, crv__program_destroy() takes back the rest.
- */
+/* Whether the filter of these options computes in half floats. */
+bool crv__program_uses_half(const crv__program *p, const crv_options *options);
+
+/* Destroy also after an error. */
 crv_status crv__program_create(crv__program *p, const crv__device *device,
                                const crv__setup *setup, const crv__program_desc *desc);
 void crv__program_destroy(crv__program *p);

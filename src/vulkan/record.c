@@ -1,190 +1,337 @@
 /* SPDX-License-Identifier: MIT */
-/* Commands: barriers and dispatches. */
-#include "vulkan/slot.h"
+#include "vulkan/record.h"
 
-const crv__access CRV__EARLIER = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                  VK_ACCESS_2_MEMORY_WRITE_BIT};
-const crv__access CRV__WRITTEN = {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                                  VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
-const crv__access CRV__SAMPLED = {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                                  VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
-const crv__access CRV__COPIED_TO = {VK_PIPELINE_STAGE_2_COPY_BIT,
-                                    VK_ACCESS_2_TRANSFER_WRITE_BIT};
-const crv__access CRV__COPIED_FROM = {VK_PIPELINE_STAGE_2_COPY_BIT,
-                                      VK_ACCESS_2_TRANSFER_READ_BIT};
-const crv__access CRV__HOST_READS = {VK_PIPELINE_STAGE_2_HOST_BIT,
-                                     VK_ACCESS_2_HOST_READ_BIT};
+/* What a recording goes through. */
+typedef struct recorder {
+    crv__slot *slot;
+    const crv__program *program;
+    const crv__image *image; /* the scratch's */
+    const crv__device *device;
+    VkCommandBuffer commands;
+    const crv__job *job;
+    crv__push push;
+    crv__rectangle whole;    /* the buffers */
+    crv__rectangle estimate; /* the accessibility images */
+    crv__rectangle result;   /* what the host's result gets */
+} recorder;
 
-void crv__record_barrier(const crv__device *d, VkCommandBuffer commands, crv__access from,
-                         crv__access to)
+static VkImage image_of(const recorder *r, int index)
 {
-    const VkMemoryBarrier2 barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                      .srcStageMask = from.stages,
-                                      .srcAccessMask = from.access,
-                                      .dstStageMask = to.stages,
-                                      .dstAccessMask = to.access};
-    const VkDependencyInfo info = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                   .memoryBarrierCount = 1,
-                                   .pMemoryBarriers = &barrier};
-    d->vk.CmdPipelineBarrier2(commands, &info);
+    return r->image[index].image;
 }
 
-static VkImageMemoryBarrier2 image_barrier(VkImage image, VkImageLayout before,
-                                           VkImageLayout after, crv__access from,
-                                           crv__access to)
+/* ---- steps: named for debuggers, and timed ---- */
+
+static void begin_label(const recorder *r, const char *name)
 {
-    return (VkImageMemoryBarrier2){.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                                   .srcStageMask = from.stages,
-                                   .srcAccessMask = from.access,
-                                   .dstStageMask = to.stages,
-                                   .dstAccessMask = to.access,
-                                   .oldLayout = before,
-                                   .newLayout = after,
-                                   .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                   .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                   .image = image,
-                                   .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0,
-                                                        VK_REMAINING_MIP_LEVELS, 0,
-                                                        VK_REMAINING_ARRAY_LAYERS}};
+    const VkDebugUtilsLabelEXT label = {.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT,
+                                        .pLabelName = name};
+    if (r->device->debug.begin_label)
+        r->device->debug.begin_label(r->commands, &label);
 }
 
-void crv__record_layout(const crv__device *d, VkCommandBuffer commands, VkImage image,
-                        VkImageLayout before, VkImageLayout after, crv__access from,
-                        crv__access to)
+static void end_label(const recorder *r)
 {
-    const VkImageMemoryBarrier2 barrier = image_barrier(image, before, after, from, to);
-    const VkDependencyInfo info = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                   .imageMemoryBarrierCount = 1,
-                                   .pImageMemoryBarriers = &barrier};
-    d->vk.CmdPipelineBarrier2(commands, &info);
+    if (r->device->debug.end_label)
+        r->device->debug.end_label(r->commands);
 }
 
-void crv__slot_record_begin(crv__slot *s, VkCommandBuffer commands)
+static void begin_step(recorder *r, const char *name)
 {
-    const crv__device *d = s->program->device;
-    const crv__access earlier = CRV__EARLIER;
-    const crv__access writes = {
-        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
-        VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT
-            | VK_ACCESS_2_TRANSFER_WRITE_BIT};
-    const VkImage images[] = {s->depth.image,
-                              s->normals.image,
-                              s->accessibility[0].image,
-                              s->accessibility[1].image,
-                              s->apart.image,
-                              s->sums[0].image,
-                              s->sums[1].image};
-    enum { IMAGES = sizeof images / sizeof images[0] };
-    VkImageMemoryBarrier2 barriers[IMAGES];
-    uint32_t count = 0;
-    for (int i = 0; i < IMAGES; i++) {
-        if (images[i])
-            barriers[count++] = image_barrier(images[i], VK_IMAGE_LAYOUT_UNDEFINED,
-                                              VK_IMAGE_LAYOUT_GENERAL, earlier, writes);
-    }
-    const VkDependencyInfo info = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                   .imageMemoryBarrierCount = count,
-                                   .pImageMemoryBarriers = barriers};
-    d->vk.CmdPipelineBarrier2(commands, &info);
-    s->query_count = 0;
-    if (!s->queries)
-        return;
-    d->vk.CmdResetQueryPool(commands, s->queries, 0, CRV__MOST_STEPS + 1);
-    d->vk.CmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, s->queries,
-                             (uint32_t)s->query_count++);
+    begin_label(r, name);
+    r->slot->steps[r->slot->step_count++] = name;
 }
 
-void crv__slot_record_step(crv__slot *s, VkCommandBuffer commands,
-                           const crv__pipeline *pipeline, VkDescriptorSet set,
-                           const crv__push *push)
+static void end_step(recorder *r)
 {
-    const crv__program *p = s->program;
-    const crv__device *d = p->device;
-    const int32_t step = pipeline->interleave, tile = pipeline->group * step;
+    const crv__slot *s = r->slot;
+    if (s->queries)
+        r->device->vk.CmdWriteTimestamp2(r->commands,
+                                         VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, s->queries,
+                                         (uint32_t)s->step_count);
+    end_label(r);
+}
+
+/* ---- dispatches ---- */
+
+/* What the next dispatch writes: `out`, which begins at texel (x, y) of the image. */
+static void set_output(recorder *r, crv__rectangle out, int32_t x, int32_t y)
+{
+    r->push.out_x = out.x;
+    r->push.out_y = out.y;
+    r->push.out_width = out.width;
+    r->push.out_height = out.height;
+    r->push.store_x = x - out.x;
+    r->push.store_y = y - out.y;
+}
+
+static void dispatch(const recorder *r, const crv__pipeline *pipeline,
+                     VkDescriptorSet set)
+{
+    const crv__device *d = r->device;
+    const crv__push *push = &r->push;
+    const int32_t step = pipeline->pixel_stride, tile = pipeline->group * step;
     const int32_t tile_x = tile * pipeline->lanes_x, tile_y = tile * pipeline->lanes_y;
-    d->vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline->pipeline);
-    d->vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
+    d->vk.CmdBindPipeline(r->commands, VK_PIPELINE_BIND_POINT_COMPUTE,
+                          pipeline->pipeline);
+    d->vk.CmdBindDescriptorSets(r->commands, VK_PIPELINE_BIND_POINT_COMPUTE,
                                 d->pipelines->layout, 0, 1, &set, 0, NULL);
-    d->vk.CmdPushConstants(commands, d->pipelines->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                           sizeof *push, push);
-    d->vk.CmdDispatch(commands,
+    d->vk.CmdPushConstants(r->commands, d->pipelines->layout, VK_SHADER_STAGE_COMPUTE_BIT,
+                           0, sizeof *push, push);
+    d->vk.CmdDispatch(r->commands,
                       (uint32_t)((push->out_width + tile_x - 1) / tile_x * step),
                       (uint32_t)((push->out_height + tile_y - 1) / tile_y * step), 1);
 }
 
-void crv__push_out(crv__push *push, crv__rectangle r)
+static void wait_between(const recorder *r)
 {
-    push->out_x = r.x;
-    push->out_y = r.y;
-    push->out_width = r.width;
-    push->out_height = r.height;
+    crv__record_between(r->device, r->commands);
 }
 
-void crv__record_between(const crv__device *d, VkCommandBuffer commands)
-{
-    crv__record_barrier(
-        d, commands, CRV__WRITTEN,
-        (crv__access){CRV__SAMPLED.stages, CRV__SAMPLED.access | CRV__WRITTEN.access});
-}
+/* ---- the images ---- */
 
-void crv__slot_record_layouts(crv__slot *s, VkCommandBuffer commands, crv__push *push)
+/* Those of the pass, whatever they held, after the recording before has done with them;
+ * the result, after its last users. */
+static void record_images(const recorder *r)
 {
-    const crv__program *p = s->program;
-    const crv__image_desc *depth = &s->depth.desc;
-    if (p->deinterleave.pipeline) {
-        crv__push_out(push, (crv__rectangle){0, 0, depth->width, depth->height});
-        crv__slot_record_step(s, commands, &p->deinterleave, s->apart_set, push);
-        crv__slot_record_time(s, commands);
+    const crv_vulkan_frame *f = r->job->frame;
+    const crv__access written = crv__access_both(CRV__WRITTEN, CRV__COPIED_TO);
+    const crv__access used = crv__access_both(
+        written, (crv__access){CRV__COPIED_FROM.stages, VK_ACCESS_2_NONE});
+    const crv__access ready = crv__access_both(written, CRV__SAMPLED);
+    VkImageMemoryBarrier2 barriers[CRV__SCRATCH_IMAGES + 1];
+    uint32_t count = 0;
+    for (int i = 0; i < CRV__SCRATCH_IMAGES; i++) {
+        if (image_of(r, i))
+            barriers[count++] =
+                crv__image_barrier(image_of(r, i), VK_IMAGE_LAYOUT_UNDEFINED,
+                                   VK_IMAGE_LAYOUT_GENERAL, used, ready);
     }
-    if (!p->prefilter.pipeline)
+    if (f) {
+        barriers[count] = crv__image_barrier(
+            f->result, f->result_layout_before, VK_IMAGE_LAYOUT_GENERAL,
+            (crv__access){f->result_stages_before, f->result_access_before},
+            CRV__WRITTEN);
+        barriers[count++].subresourceRange = (VkImageSubresourceRange){
+            VK_IMAGE_ASPECT_COLOR_BIT, f->result_level, 1, f->result_layer, 1};
+    }
+    crv__record_image_barriers(r->device, r->commands, barriers, count);
+}
+
+/* ---- from and to the host's images ---- */
+
+static void record_converts(recorder *r)
+{
+    const crv_vulkan_frame *f = r->job->frame;
+    r->push.host_x = f->input_x;
+    r->push.host_y = f->input_y;
+    set_output(r, r->whole, 0, 0);
+    for (int32_t layer = 0; layer < r->job->setup->desc.layers; layer++) {
+        const VkDescriptorSet set = r->slot->depth_set[layer];
+        const crv_vulkan_input *depth = &f->depth[layer];
+        crv__slot_bind_image(r->slot, set, CRV__BIND_HOST_DEPTH, depth->view,
+                             depth->layout);
+        if (layer == 0 && r->job->has_normals)
+            crv__slot_bind_image(r->slot, set, CRV__BIND_HOST_NORMALS, f->normals.view,
+                                 f->normals.layout);
+        begin_step(r, layer == 0 ? "depth and normals" : "depth");
+        dispatch(r, layer == 0 ? &r->program->convert : &r->program->depth, set);
+        end_step(r);
+    }
+    wait_between(r);
+}
+
+/* The last step writes the result. */
+static void record_result_layout(const recorder *r)
+{
+    const crv_vulkan_frame *f = r->job->frame;
+    VkImageMemoryBarrier2 barrier = crv__image_barrier(
+        f->result, VK_IMAGE_LAYOUT_GENERAL, f->result_layout, CRV__WRITTEN,
+        (crv__access){f->result_stages, f->result_access});
+    barrier.subresourceRange = (VkImageSubresourceRange){
+        VK_IMAGE_ASPECT_COLOR_BIT, f->result_level, 1, f->result_layer, 1};
+    crv__record_image_barriers(r->device, r->commands, &barrier, 1);
+}
+
+/* ---- from and to a staging buffer ---- */
+
+static VkBufferImageCopy copy_of(size_t offset, crv__rectangle r, int32_t layers)
+{
+    return (VkBufferImageCopy){
+        .bufferOffset = offset,
+        .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, (uint32_t)layers},
+        .imageExtent = {(uint32_t)r.width, (uint32_t)r.height, 1}};
+}
+
+static void upload(const recorder *r, int image, const VkBufferImageCopy *copy)
+{
+    r->device->vk.CmdCopyBufferToImage(r->commands, r->job->staging->buffer.buffer,
+                                       image_of(r, image), VK_IMAGE_LAYOUT_GENERAL, 1,
+                                       copy);
+}
+
+static void record_upload(recorder *r)
+{
+    const crv__staging *staging = r->job->staging;
+    const VkBufferImageCopy depth = copy_of(0, r->whole, r->job->setup->desc.layers);
+    const VkBufferImageCopy normals = copy_of(staging->normals, r->whole, 1);
+    const VkBufferImageCopy estimate = copy_of(staging->accessibility, r->estimate, 1);
+    begin_step(r, "upload");
+    upload(r, CRV__SCRATCH_DEPTH, &depth);
+    upload(r, CRV__SCRATCH_NORMALS, &normals);
+    if (r->job->filter_only)
+        upload(r, CRV__SCRATCH_ACCESSIBILITY, &estimate);
+    crv__record_barrier(r->device, r->commands, CRV__COPIED_TO, CRV__SAMPLED);
+    end_step(r);
+}
+
+static void record_download(recorder *r)
+{
+    const crv__staging *staging = r->job->staging;
+    const int outcome =
+        r->program->passes % 2 ? CRV__SCRATCH_FILTERED : CRV__SCRATCH_ACCESSIBILITY;
+    const VkBufferImageCopy copy = copy_of(staging->accessibility, r->estimate, 1);
+    begin_step(r, "download");
+    crv__record_barrier(r->device, r->commands,
+                        crv__access_both(CRV__WRITTEN, CRV__COPIED_TO),
+                        crv__access_both(CRV__COPIED_FROM, CRV__COPIED_TO));
+    r->device->vk.CmdCopyImageToBuffer(r->commands, image_of(r, outcome),
+                                       VK_IMAGE_LAYOUT_GENERAL, staging->buffer.buffer, 1,
+                                       &copy);
+    crv__record_barrier(r->device, r->commands, CRV__COPIED_TO, CRV__HOST_READS);
+    end_step(r);
+}
+
+/* ---- in between ---- */
+
+static void record_deinterleave(recorder *r)
+{
+    if (!r->program->deinterleave.pipeline)
         return;
-    for (push->layer = 0; push->layer < depth->layers; push->layer++) {
-        for (push->pass = 1; push->pass < depth->levels; push->pass++) {
-            crv__push_out(push, (crv__rectangle){0, 0, depth->width >> push->pass,
-                                                 depth->height >> push->pass});
-            crv__slot_record_step(s, commands, &p->prefilter,
-                                  s->level_set[push->layer][push->pass], push);
+    begin_step(r, "deinterleave");
+    set_output(r, r->whole, 0, 0);
+    dispatch(r, &r->program->deinterleave, r->slot->deinterleave_set);
+    end_step(r);
+    wait_between(r);
+}
+
+/* No level waits for another. */
+static void record_levels(recorder *r)
+{
+    const crv__image_desc *depth = &r->image[CRV__SCRATCH_DEPTH].desc;
+    if (!r->program->prefilter.pipeline)
+        return;
+    begin_step(r, "levels");
+    for (r->push.layer = 0; r->push.layer < depth->layers; r->push.layer++) {
+        for (r->push.pass = 1; r->push.pass < depth->levels; r->push.pass++) {
+            const crv__rectangle level = {0, 0, r->whole.width >> r->push.pass,
+                                          r->whole.height >> r->push.pass};
+            set_output(r, level, 0, 0);
+            dispatch(r, &r->program->prefilter,
+                     r->slot->level_set[r->push.layer][r->push.pass]);
         }
     }
-    push->layer = push->pass = 0;
-    crv__slot_record_time(s, commands);
+    r->push.layer = r->push.pass = 0;
+    end_step(r);
+    wait_between(r);
 }
 
-void crv__slot_record_estimate(crv__slot *s, VkCommandBuffer commands, crv__push *push)
+/* The output of the last step if `is_last`, else of an image of the pass. */
+static void set_accessibility_output(recorder *r, bool is_last, VkDescriptorSet set)
 {
-    const crv__program *p = s->program;
+    const crv_vulkan_frame *f = r->job->frame;
+    if (!is_last || !f) {
+        set_output(r, r->estimate, 0, 0);
+        return;
+    }
+    crv__slot_bind_image(r->slot, set, CRV__BIND_OUTPUT, f->result_view,
+                         VK_IMAGE_LAYOUT_GENERAL);
+    set_output(r, r->result, f->result_x, f->result_y);
+}
+
+/* In as many dispatches as the program says. */
+static void record_estimate(recorder *r)
+{
+    const crv__program *p = r->program;
+    const bool is_last = p->passes == 0;
+    begin_step(r, r->job->setup->method->info.name);
     for (int32_t i = 0; i < p->parts; i++) {
-        push->part_begin = i * p->part_size;
-        push->part_end = push->part_begin + p->part_size;
-        push->is_last_part = i + 1 == p->parts;
+        const bool ends = i + 1 == p->parts;
+        r->push.part_begin = i * p->part_size;
+        r->push.part_end = r->push.part_begin + p->part_size;
+        r->push.is_last_part = ends;
         if (i > 0)
-            crv__record_between(p->device, commands);
-        crv__slot_record_step(s, commands, &p->estimate,
-                              push->is_last_part ? s->estimate_set : s->part_set[i % 2],
-                              push);
+            wait_between(r);
+        set_accessibility_output(r, is_last, r->slot->estimate_set);
+        if (!ends) /* the sums, from the corner of their image on */
+            set_output(r, is_last && r->job->frame ? r->result : r->estimate, 0, 0);
+        dispatch(r, &p->estimate,
+                 ends ? r->slot->estimate_set : r->slot->part_set[i % 2]);
+    }
+    end_step(r);
+}
+
+static void record_filter(recorder *r)
+{
+    const crv__program *p = r->program;
+    for (r->push.pass = 0; r->push.pass < p->passes; r->push.pass++) {
+        const VkDescriptorSet set = r->slot->filter_set[r->push.pass];
+        wait_between(r);
+        begin_step(r, r->job->setup->filter->info.name);
+        set_accessibility_output(r, r->push.pass + 1 == p->passes, set);
+        dispatch(r, &p->filter[r->push.pass], set);
+        end_step(r);
     }
 }
 
-void crv__slot_record_time(crv__slot *s, VkCommandBuffer commands)
+/* ---- all of it ---- */
+
+static void begin(recorder *r)
 {
-    if (s->queries)
-        s->program->device->vk.CmdWriteTimestamp2(commands,
-                                                  VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                                                  s->queries, (uint32_t)s->query_count++);
+    crv__slot *s = r->slot;
+    s->step_count = 0;
+    begin_label(r, "crevice");
+    record_images(r);
+    if (!s->queries)
+        return;
+    r->device->vk.CmdResetQueryPool(r->commands, s->queries, 0, CRV__MOST_STEPS + 1);
+    r->device->vk.CmdWriteTimestamp2(r->commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                     s->queries, 0);
 }
 
-crv_status crv__slot_times(const crv__slot *s, double times_ms[CRV__MOST_STEPS])
+void crv__record(crv__slot *slot, VkCommandBuffer commands, const crv__job *job)
 {
-    const crv__device *d = s->program->device;
-    uint64_t ticks[CRV__MOST_STEPS + 1];
-    const VkResult result = d->vk.GetQueryPoolResults(
-        d->device, s->queries, 0, (uint32_t)s->query_count, sizeof ticks, ticks,
-        sizeof *ticks, VK_QUERY_RESULT_64_BIT);
-    if (result == VK_NOT_READY)
-        return CRV_ERROR_NOT_READY;
-    if (result)
-        return crv__device_fail(d, result, "timestamps");
-    for (int32_t i = 0; i + 1 < s->query_count; i++)
-        times_ms[i] = crv__device_seconds(d, ticks[i], ticks[i + 1]) * 1e3;
-    return CRV_OK;
+    const crv_gbuffer_desc *g = &job->setup->desc;
+    recorder r = {.slot = slot,
+                  .program = slot->program,
+                  .image = slot->scratch->image,
+                  .device = slot->program->device,
+                  .commands = commands,
+                  .job = job,
+                  .push = job->push,
+                  .whole = {0, 0, g->width, g->height},
+                  .estimate = crv__setup_rectangle(job->setup),
+                  .result = {g->guard_left, g->guard_top,
+                             g->width - g->guard_left - g->guard_right,
+                             g->height - g->guard_top - g->guard_bottom}};
+    r.push.in_x = r.estimate.x;
+    r.push.in_y = r.estimate.y;
+    r.push.in_width = r.estimate.width;
+    r.push.in_height = r.estimate.height;
+    begin(&r);
+    if (job->frame)
+        record_converts(&r);
+    else
+        record_upload(&r);
+    if (!job->filter_only) {
+        record_deinterleave(&r);
+        record_levels(&r);
+        record_estimate(&r);
+    }
+    record_filter(&r);
+    if (job->frame)
+        record_result_layout(&r);
+    else
+        record_download(&r);
+    end_label(&r);
 }

@@ -1,14 +1,68 @@
 /* SPDX-License-Identifier: MIT */
 #include "vulkan/slot.h"
 
+#include "core/noise.h"
+
 #include <string.h>
+
+/* ---- numbers ---- */
+
+/* Offsets of storage and uniform buffers: every device takes a multiple of this. */
+enum { OFFSET_ALIGNMENT = 256 };
+
+/* Where the numbers lie in their buffer, by binding. */
+typedef struct numbers_layout {
+    size_t offset[CRV__BIND_DEPTH], size[CRV__BIND_DEPTH], total;
+} numbers_layout;
+
+static numbers_layout layout_of(const crv__setup *setup)
+{
+    const size_t edge = (size_t)setup->options.noise_size;
+    const size_t points = setup->pattern ? (size_t)setup->options.samples : 1;
+    numbers_layout l = {
+        .size = {[CRV__BIND_PARAMS] = sizeof(crv__params),
+                 [CRV__BIND_NOISE] = edge * edge * sizeof(crv__noise_texel),
+                 [CRV__BIND_DIRECTIONS] =
+                     (size_t)setup->options.directions * 2 * sizeof(float),
+                 /* Methods without points still have the binding. */
+                 [CRV__BIND_PATTERN] = points * 4 * sizeof(float)}};
+    for (int i = 0; i < CRV__BIND_DEPTH; i++) {
+        l.offset[i] = l.total;
+        l.total +=
+            (l.size[i] + OFFSET_ALIGNMENT - 1) / OFFSET_ALIGNMENT * OFFSET_ALIGNMENT;
+    }
+    return l;
+}
+
+/* The angle that the noise turns by, at most. */
+static double sector_of(const crv__setup *setup)
+{
+    const double turn = 6.28318530717958647692;
+    return setup->method->pattern_fill ? turn : turn / setup->options.directions;
+}
+
+void crv__slot_fill(const crv__slot *s, const crv__setup *setup,
+                    const crv__params *params, uint32_t noise_index)
+{
+    const numbers_layout l = layout_of(setup);
+    char *bytes = s->numbers.block.mapped;
+    memcpy(bytes + l.offset[CRV__BIND_PARAMS], params, sizeof *params);
+    crv__noise_advance(setup->noise, setup->options.noise_size, sector_of(setup),
+                       noise_index,
+                       (crv__noise_texel *)(void *)(bytes + l.offset[CRV__BIND_NOISE]));
+    memcpy(bytes + l.offset[CRV__BIND_DIRECTIONS], setup->directions,
+           l.size[CRV__BIND_DIRECTIONS]);
+    if (setup->pattern)
+        memcpy(bytes + l.offset[CRV__BIND_PATTERN], setup->pattern,
+               l.size[CRV__BIND_PATTERN]);
+}
 
 /* ---- descriptors ---- */
 
-void crv__bind_image(const crv__program *p, VkDescriptorSet set, uint32_t binding,
-                     VkImageView view, VkImageLayout layout)
+void crv__slot_bind_image(const crv__slot *s, VkDescriptorSet set, uint32_t binding,
+                          VkImageView view, VkImageLayout layout)
 {
-    const crv__device *d = p->device;
+    const crv__device *d = s->program->device;
     const VkDescriptorImageInfo image = {d->pipelines->sampler, view, layout};
     const VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                                         .dstSet = set,
@@ -20,16 +74,15 @@ void crv__bind_image(const crv__program *p, VkDescriptorSet set, uint32_t bindin
 }
 
 /* Every binding gets something, since some drivers look at those that no shader reads. */
-static void bind_all(crv__slot *s, VkDescriptorSet set, VkImageView input,
-                     VkImageView output)
+static void bind_all(crv__slot *s, const numbers_layout *l, VkDescriptorSet set,
+                     VkImageView input, VkImageView output)
 {
     const crv__device *d = s->program->device;
     VkDescriptorBufferInfo buffers[CRV__BIND_DEPTH];
     VkWriteDescriptorSet writes[CRV__BIND_DEPTH];
-    memcpy(buffers, s->program->table, sizeof buffers);
-    buffers[CRV__BIND_PARAMS] =
-        (VkDescriptorBufferInfo){s->params.buffer, 0, sizeof(crv__params)};
-    for (uint32_t i = 0; i < CRV__BIND_DEPTH; i++)
+    for (uint32_t i = 0; i < CRV__BIND_DEPTH; i++) {
+        buffers[i] =
+            (VkDescriptorBufferInfo){s->numbers.buffer, l->offset[i], l->size[i]};
         writes[i] =
             (VkWriteDescriptorSet){.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                                    .dstSet = set,
@@ -37,96 +90,126 @@ static void bind_all(crv__slot *s, VkDescriptorSet set, VkImageView input,
                                    .descriptorCount = 1,
                                    .descriptorType = crv__binding_type(i),
                                    .pBufferInfo = &buffers[i]};
+    }
     d->vk.UpdateDescriptorSets(d->device, CRV__BIND_DEPTH, writes, 0, NULL);
-    const VkImageView views[CRV__BINDINGS] = {[CRV__BIND_DEPTH] = s->depth.view,
-                                              [CRV__BIND_NORMALS] = s->normals.view,
+    const crv__image *image = s->scratch->image;
+    const VkImageView normals = image[CRV__SCRATCH_NORMALS].view;
+    const VkImageView views[CRV__BINDINGS] = {[CRV__BIND_DEPTH] =
+                                                  image[CRV__SCRATCH_DEPTH].view,
+                                              [CRV__BIND_NORMALS] = normals,
                                               [CRV__BIND_INPUT] = input,
                                               [CRV__BIND_OUTPUT] = output,
-                                              [CRV__BIND_HOST_DEPTH] = s->normals.view,
-                                              [CRV__BIND_HOST_NORMALS] = s->normals.view,
-                                              [CRV__BIND_NORMALS_OUTPUT] =
-                                                  s->normals.view};
+                                              [CRV__BIND_HOST_DEPTH] = normals,
+                                              [CRV__BIND_HOST_NORMALS] = normals,
+                                              [CRV__BIND_NORMALS_OUTPUT] = normals};
     for (uint32_t i = CRV__BIND_DEPTH; i < CRV__BINDINGS; i++)
-        crv__bind_image(s->program, set, i, views[i], VK_IMAGE_LAYOUT_GENERAL);
+        crv__slot_bind_image(s, set, i, views[i], VK_IMAGE_LAYOUT_GENERAL);
+}
+
+/* Depth as estimates read it. */
+static VkImageView depth_of_estimate(const crv__slot *s)
+{
+    const crv__image *depth = &s->scratch->image[CRV__SCRATCH_DEPTH],
+                     *other = &s->scratch->image[CRV__SCRATCH_DEINTERLEAVED];
+    return other->image ? other->view : depth->all ? depth->all : depth->view;
+}
+
+/* The sets of an estimate: one, or two that hand sums to and fro and one that ends. */
+static void bind_estimate(crv__slot *s, const numbers_layout *l, VkImageView first,
+                          VkImageView second)
+{
+    const int32_t parts = s->program->parts;
+    const VkImageView depth = depth_of_estimate(s);
+    const VkImageView sums[2] = {s->scratch->image[CRV__SCRATCH_SUMS].view,
+                                 s->scratch->image[CRV__SCRATCH_SUMS + 1].view};
+    bind_all(s, l, s->estimate_set, parts > 1 ? sums[parts % 2] : second, first);
+    crv__slot_bind_image(s, s->estimate_set, CRV__BIND_DEPTH, depth,
+                         VK_IMAGE_LAYOUT_GENERAL);
+    for (int i = 0; parts > 1 && i < 2; i++) {
+        bind_all(s, l, s->part_set[i], sums[1 - i], sums[i]);
+        crv__slot_bind_image(s, s->part_set[i], CRV__BIND_DEPTH, depth,
+                             VK_IMAGE_LAYOUT_GENERAL);
+    }
+}
+
+static void bind_sets(crv__slot *s, const crv__setup *setup)
+{
+    const crv__image *image = s->scratch->image, *depth = &image[CRV__SCRATCH_DEPTH];
+    const numbers_layout l = layout_of(setup);
+    const VkImageView first = image[CRV__SCRATCH_ACCESSIBILITY].view;
+    const VkImageView filtered = image[CRV__SCRATCH_FILTERED].view;
+    const VkImageView second = filtered ? filtered : first;
+    for (int32_t i = 0; i < depth->desc.layers; i++) {
+        if (s->depth_set[i])
+            bind_all(s, &l, s->depth_set[i], first, depth->part[i][0]);
+        for (int32_t m = 1; m < depth->desc.levels; m++)
+            bind_all(s, &l, s->level_set[i][m], first, depth->part[i][m]);
+    }
+    bind_estimate(s, &l, first, second);
+    for (int32_t i = 0; i < s->program->passes; i++)
+        bind_all(s, &l, s->filter_set[i], i % 2 ? second : first, i % 2 ? first : second);
+    if (s->deinterleave_set)
+        bind_all(s, &l, s->deinterleave_set, first,
+                 image[CRV__SCRATCH_DEINTERLEAVED].view);
 }
 
 enum {
-    PARTS_FROM = CRV_MAX_LAYERS + 2 + CRV__MOST_PASSES,
-    LEVELS_FROM = PARTS_FROM + 2,
-    SETS = LEVELS_FROM + CRV_MAX_LAYERS * CRV__MOST_LEVELS
+    MOST_SETS = CRV_MAX_LAYERS * CRV__MOST_LEVELS + 4 + CRV__MOST_PASSES,
 };
+
+/* The sets that the program needs; their count. */
+static uint32_t list_sets(crv__slot *s, VkDescriptorSet *sets[MOST_SETS])
+{
+    const crv__program *p = s->program;
+    const crv__image_desc *depth = &s->scratch->image[CRV__SCRATCH_DEPTH].desc;
+    uint32_t count = 0;
+    sets[count++] = &s->estimate_set;
+    for (int32_t i = 0; i < depth->layers; i++) {
+        if (p->desc.converts)
+            sets[count++] = &s->depth_set[i];
+        for (int32_t m = 1; m < depth->levels; m++)
+            sets[count++] = &s->level_set[i][m];
+    }
+    for (int32_t i = 0; i < p->passes; i++)
+        sets[count++] = &s->filter_set[i];
+    for (int32_t i = 0; p->parts > 1 && i < 2; i++)
+        sets[count++] = &s->part_set[i];
+    if (p->deinterleave.pipeline)
+        sets[count++] = &s->deinterleave_set;
+    return count;
+}
 
 static VkResult create_sets(crv__slot *s)
 {
     const crv__device *d = s->program->device;
+    VkDescriptorSet *places[MOST_SETS], sets[MOST_SETS];
+    VkDescriptorSetLayout layouts[MOST_SETS];
+    const uint32_t count = list_sets(s, places);
     const VkDescriptorPoolSize sizes[] = {
-        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, SETS},
-        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, SETS * 3},
-        {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, SETS * 2},
-        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, SETS * 5}};
+        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count},
+        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count * 3},
+        {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, count * 2},
+        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count * 5}};
     const VkDescriptorPoolCreateInfo pool = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-        .maxSets = SETS,
-        .poolSizeCount = 4,
+        .maxSets = count,
+        .poolSizeCount = sizeof sizes / sizeof sizes[0],
         .pPoolSizes = sizes};
     VkResult result =
         d->vk.CreateDescriptorPool(d->device, &pool, d->callbacks, &s->pool);
     if (result)
         return result;
-    VkDescriptorSet sets[SETS];
-    VkDescriptorSetLayout layouts[SETS];
-    for (int i = 0; i < SETS; i++)
+    for (uint32_t i = 0; i < count; i++)
         layouts[i] = d->pipelines->set_layout;
     const VkDescriptorSetAllocateInfo info = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
         .descriptorPool = s->pool,
-        .descriptorSetCount = SETS,
+        .descriptorSetCount = count,
         .pSetLayouts = layouts};
     result = d->vk.AllocateDescriptorSets(d->device, &info, sets);
-    if (result)
-        return result;
-    memcpy(s->depth_set, sets, sizeof s->depth_set);
-    s->estimate_set = sets[CRV_MAX_LAYERS];
-    s->apart_set = sets[CRV_MAX_LAYERS + 1];
-    memcpy(s->filter_set, sets + CRV_MAX_LAYERS + 2, sizeof s->filter_set);
-    memcpy(s->part_set, sets + PARTS_FROM, sizeof s->part_set);
-    memcpy(s->level_set, sets + LEVELS_FROM, sizeof s->level_set);
-    return VK_SUCCESS;
-}
-
-/* The sets of an estimate: one, or two that hand sums to and fro and one that ends. */
-static void bind_estimate(crv__slot *s, VkImageView accessibility, VkImageView unused)
-{
-    const int32_t parts = s->program->parts;
-    const VkImageView depth = s->apart.image ? s->apart.view
-                              : s->depth.all ? s->depth.all
-                                             : s->depth.view;
-    const VkImageView sums[2] = {s->sums[0].view, s->sums[1].view};
-    bind_all(s, s->estimate_set, parts > 1 ? sums[parts % 2] : unused, accessibility);
-    crv__bind_image(s->program, s->estimate_set, CRV__BIND_DEPTH, depth,
-                    VK_IMAGE_LAYOUT_GENERAL);
-    for (int i = 0; parts > 1 && i < 2; i++) {
-        bind_all(s, s->part_set[i], sums[1 - i], sums[i]);
-        crv__bind_image(s->program, s->part_set[i], CRV__BIND_DEPTH, depth,
-                        VK_IMAGE_LAYOUT_GENERAL);
-    }
-}
-
-static void bind_sets(crv__slot *s)
-{
-    const VkImageView first = s->accessibility[0].view;
-    const VkImageView second =
-        s->accessibility[1].view ? s->accessibility[1].view : first;
-    for (int32_t i = 0; i < s->depth.desc.layers; i++) {
-        bind_all(s, s->depth_set[i], first, s->depth.part[i][0]);
-        for (int32_t m = 1; m < s->depth.desc.levels; m++)
-            bind_all(s, s->level_set[i][m], first, s->depth.part[i][m]);
-    }
-    bind_estimate(s, first, second);
-    bind_all(s, s->filter_set[0], first, second);
-    bind_all(s, s->filter_set[1], second, first);
-    if (s->apart.image)
-        bind_all(s, s->apart_set, first, s->apart.view);
+    for (uint32_t i = 0; result == VK_SUCCESS && i < count; i++)
+        *places[i] = sets[i];
+    return result;
 }
 
 /* ---- life ---- */
@@ -142,61 +225,23 @@ static crv_status create_queries(crv__slot *s)
     return result ? crv__device_fail(d, result, "timestamps") : CRV_OK;
 }
 
-/* Down to a few texels, or one level where coarser ones are not read. */
-static int32_t level_count(const crv__program *p, const crv_gbuffer_desc *g)
-{
-    int32_t levels = 1;
-    while (p->desc.level_px > 0 && levels < CRV__MOST_LEVELS && g->width >> levels > 4
-           && g->height >> levels > 4)
-        levels++;
-    return levels;
-}
-
-static crv_status create_images(crv__slot *s, const crv__setup *setup,
-                                const crv__slot_desc *desc)
-{
-    const crv__program *p = s->program;
-    const crv_gbuffer_desc *g = &setup->desc;
-    const int32_t edge = p->desc.edge;
-    const crv__image_desc depth = {VK_FORMAT_R32_SFLOAT, g->width, g->height, g->layers,
-                                   level_count(p, g)},
-                          normals = {desc->normal_format, g->width, g->height, 0, 1},
-                          accessibility = {desc->accessibility_format, s->rectangle.width,
-                                           s->rectangle.height, 0, 1},
-                          apart = {VK_FORMAT_R32_SFLOAT, (g->width + edge - 1) / edge,
-                                   (g->height + edge - 1) / edge, g->layers * edge * edge,
-                                   1},
-                          sums = {VK_FORMAT_R32G32_SFLOAT, s->rectangle.width,
-                                  s->rectangle.height, 0, 1};
-    crv_status status = crv__image_create(&s->depth, p->device, &depth);
-    if (status == CRV_OK)
-        status = crv__image_create(&s->normals, p->device, &normals);
-    for (int i = 0; status == CRV_OK && i < (p->passes ? 2 : 1); i++)
-        status = crv__image_create(&s->accessibility[i], p->device, &accessibility);
-    if (status == CRV_OK && edge > 1)
-        status = crv__image_create(&s->apart, p->device, &apart);
-    for (int i = 0; status == CRV_OK && i < (p->parts > 1 ? 2 : 0); i++)
-        status = crv__image_create(&s->sums[i], p->device, &sums);
-    return status;
-}
-
 crv_status crv__slot_create(crv__slot *s, const crv__program *program,
-                            const crv__setup *setup, const crv__slot_desc *desc)
+                            const crv__scratch *scratch, const crv__setup *setup,
+                            bool timestamps)
 {
-    *s = (crv__slot){.program = program, .rectangle = crv__setup_rectangle(setup)};
-    crv_status status =
-        crv__buffer_create(&s->params, program->device, sizeof(crv__params),
-                           VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
-    if (status == CRV_OK)
-        status = create_images(s, setup, desc);
-    if (status == CRV_OK && desc->timestamps)
+    const crv__device *d = program->device;
+    *s = (crv__slot){.program = program, .scratch = scratch};
+    crv_status status = crv__buffer_create(
+        &s->numbers, d, "numbers", layout_of(setup).total,
+        VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    if (status == CRV_OK && timestamps)
         status = create_queries(s);
     if (status)
         return status;
     const VkResult result = create_sets(s);
     if (result)
-        return crv__device_fail(program->device, result, "descriptors");
-    bind_sets(s);
+        return crv__device_fail(d, result, "descriptors");
+    bind_sets(s, setup);
     return CRV_OK;
 }
 
@@ -207,19 +252,34 @@ void crv__slot_destroy(crv__slot *s)
     const crv__device *d = s->program->device;
     d->vk.DestroyQueryPool(d->device, s->queries, d->callbacks);
     d->vk.DestroyDescriptorPool(d->device, s->pool, d->callbacks);
-    crv__image_destroy(&s->sums[1], d);
-    crv__image_destroy(&s->sums[0], d);
-    crv__image_destroy(&s->apart, d);
-    crv__image_destroy(&s->accessibility[1], d);
-    crv__image_destroy(&s->accessibility[0], d);
-    crv__image_destroy(&s->normals, d);
-    crv__image_destroy(&s->depth, d);
-    crv__buffer_destroy(&s->params, d);
+    crv__buffer_destroy(&s->numbers, d);
     *s = (crv__slot){0};
 }
 
 uint64_t crv__slot_bytes(const crv__slot *s)
 {
-    return s->params.size + s->depth.size + s->normals.size + s->accessibility[0].size
-           + s->accessibility[1].size + s->apart.size + s->sums[0].size + s->sums[1].size;
+    return s->numbers.size;
+}
+
+crv_status crv__slot_times(const crv__slot *s, crv_device_time *times, int32_t *count)
+{
+    const crv__device *d = s->program->device;
+    uint64_t ticks[CRV__MOST_STEPS + 1];
+    if (!s->queries)
+        return CRV_ERROR_UNSUPPORTED;
+    if (!s->step_count)
+        return CRV_ERROR_NOT_READY;
+    const VkResult result = d->vk.GetQueryPoolResults(
+        d->device, s->queries, 0, (uint32_t)s->step_count + 1, sizeof ticks, ticks,
+        sizeof *ticks, VK_QUERY_RESULT_64_BIT);
+    if (result == VK_NOT_READY)
+        return CRV_ERROR_NOT_READY;
+    if (result)
+        return crv__device_fail(d, result, "timestamps");
+    for (int32_t i = 0; i < s->step_count; i++)
+        times[i] = (crv_device_time){
+            .name = s->steps[i],
+            .time_ms = crv__device_seconds(d, ticks[i], ticks[i + 1]) * 1e3};
+    *count = s->step_count;
+    return CRV_OK;
 }

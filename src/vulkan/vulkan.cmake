@@ -24,8 +24,10 @@ if(NOT CREVICE_HAS_VULKAN)
     return()
 endif()
 target_sources(crevice PRIVATE
-    vulkan/backend.c vulkan/commands.c vulkan/device.c vulkan/formats.c vulkan/loader.c vulkan/memory.c vulkan/pass.c vulkan/pipelines.c
-    vulkan/program.c vulkan/record.c vulkan/slot.c ${CREVICE_SHADER_INCLUDE_DIR}/crevice_shaders.h)
+    vulkan/backend.c vulkan/barriers.c vulkan/commands.c vulkan/device.c vulkan/formats.c
+    vulkan/host_pass.c vulkan/loader.c vulkan/memory.c vulkan/pass.c vulkan/pipelines.c
+    vulkan/program.c vulkan/record.c vulkan/scratch.c vulkan/slot.c
+    ${CREVICE_SHADER_INCLUDE_DIR}/crevice_shaders.h)
 add_dependencies(crevice crevice_shaders)
 target_include_directories(crevice PRIVATE ${CREVICE_SHADER_INCLUDE_DIR})
 if(NOT CREVICE_VULKAN_HEADERS STREQUAL "/usr/include")

@@ -83,7 +83,7 @@ typedef struct common_settings {
     arg_int isa;        /* index of args_device's choices */
     bool exact;
     /* Of plans on a GPU: what `crevice bench` compares. */
-    crv_depth_layout depth_layout;
+    int32_t depth_layout; /* crv_vulkan_depth_layout */
     bool half_filters;
     crv_options options; /* commands with library_options only */
     bool radius_given;

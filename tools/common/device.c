@@ -1,4 +1,8 @@
 /* SPDX-License-Identifier: MIT */
+#ifdef CREVICE_HAS_VULKAN
+#include <crevice/vulkan.h>
+#endif
+
 #include "device.h"
 
 #include <stdio.h>
@@ -93,13 +97,26 @@ static int choose_device(const common_settings *common, crv_context_desc *desc, 
     return EXIT_DONE;
 }
 
+/* How plans on a GPU work. */
+static crv_status tune_plans(const common_settings *common, crv_context *context)
+{
+    if (common->depth_layout == 0 && !common->half_filters)
+        return CRV_OK;
+#ifdef CREVICE_HAS_VULKAN
+    return crv_vulkan_context_set_plans(
+        context, (crv_vulkan_depth_layout)common->depth_layout,
+        common->half_filters ? CRV_VULKAN_HALF_ON : CRV_VULKAN_HALF_OFF);
+#else
+    (void)context;
+    return CRV_ERROR_UNSUPPORTED;
+#endif
+}
+
 static int make_context(const common_settings *common, crv_context_desc *desc, report *r,
                         crv_context **out)
 {
     desc->threads = common->threads.value;
     desc->exact = common->exact;
-    desc->depth_layout = common->depth_layout;
-    desc->half_filters = common->half_filters;
     if (choose_device(common, desc, r) != EXIT_DONE)
         return EXIT_USAGE;
     if (common->isa.value > 0) {
@@ -112,8 +129,10 @@ static int make_context(const common_settings *common, crv_context_desc *desc, r
             return EXIT_USAGE;
         }
     }
-    return report_ok(r, crv_context_create(desc, out), "context") ? EXIT_DONE
-                                                                  : EXIT_FAILED;
+    return report_ok(r, crv_context_create(desc, out), "context")
+                   && report_ok(r, tune_plans(common, *out), "context")
+               ? EXIT_DONE
+               : EXIT_FAILED;
 }
 
 int device_context(const common_settings *common, const crv_logger *logger, report *r,

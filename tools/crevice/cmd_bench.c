@@ -102,8 +102,8 @@ static const arg choice_rows[] = {
      .value = "LIST",
      .type = ARG_TEXTS,
      .offset = offsetof(bench_settings, depth_layouts),
-     .computed = "plain",
-     .help = "on a GPU, how depth lies in its memory: plain, deinterleaved, levels "
+     .computed = "linear",
+     .help = "on a GPU, how depth lies in its memory: linear, deinterleaved, levels "
              "(coarser for far samples), or all"},
     {.name = "--arithmetic",
      .value = "LIST",

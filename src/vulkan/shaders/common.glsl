@@ -30,8 +30,8 @@ layout(constant_id = 17) const int BIASED = -1; /* 0: bias_deg is 0 */
 layout(constant_id = 18) const int FILTER_PASS = -1;
 
 /* 1, or the edge of the noise tile: see pixel_of_invocation(). */
-layout(constant_id = 13) const int INTERLEAVE = 1;
-/* 1, or the edge of the tiles by which the depth image is taken apart: see depth_at(). */
+layout(constant_id = 13) const int PIXEL_STRIDE = 1;
+/* 1, or the edge of the phases by which the depth image is deinterleaved: depth_at(). */
 layout(constant_id = 16) const int DEPTH_EDGE = 1;
 /* 1: the image of normals holds two octahedral numbers instead of x, y, z. */
 layout(constant_id = 15) const int NORMALS_OCTAHEDRAL = 0;
@@ -144,8 +144,8 @@ bool in_buffers(ivec2 at)
 
 /*
  * Where the depth image has a texel of a layer. With DEPTH_EDGE n it holds n x n layers
- * for each layer, each of them every n-th texel of every n-th row: pixels that are n
- * apart and march in step (pixel_of_invocation()) then read neighbouring texels.
+ * for each layer, each of them every n-th texel of every n-th row: pixels at a distance
+ * of n that march in step (pixel_of_invocation()) then read neighbouring texels.
  */
 ivec3 depth_texel(ivec2 at, int layer)
 {
@@ -202,9 +202,9 @@ vec3 normal_at(ivec2 at)
     return NORMALS_OCTAHEDRAL != 0 ? octahedral_decoded(stored.xy) : stored.xyz;
 }
 
-int interleaved(uint group, uint size, uint local)
+int strided(uint group, uint size, uint local)
 {
-    const uint edge = uint(INTERLEAVE), block = group / edge, phase = group % edge;
+    const uint edge = uint(PIXEL_STRIDE), block = group / edge, phase = group % edge;
     return int((block * size + local) * edge + phase);
 }
 
@@ -218,12 +218,12 @@ int interleaved(uint group, uint size, uint local)
 ivec2 pixel_of_invocation()
 {
     const ivec2 corner = ivec2(push.out_x, push.out_y);
-    if (INTERLEAVE <= 1)
+    if (PIXEL_STRIDE <= 1)
         return corner + ivec2(gl_GlobalInvocationID.xy);
     return corner
            + ivec2(
-               interleaved(gl_WorkGroupID.x, gl_WorkGroupSize.x, gl_LocalInvocationID.x),
-               interleaved(gl_WorkGroupID.y, gl_WorkGroupSize.y, gl_LocalInvocationID.y));
+               strided(gl_WorkGroupID.x, gl_WorkGroupSize.x, gl_LocalInvocationID.x),
+               strided(gl_WorkGroupID.y, gl_WorkGroupSize.y, gl_LocalInvocationID.y));
 }
 
 bool in_output(ivec2 at)
@@ -235,7 +235,7 @@ bool in_output(ivec2 at)
 #ifndef OUTPUT_ARRAY
 void write_output(ivec2 at, vec4 value)
 {
-    imageStore(output_image, at - ivec2(push.out_x, push.out_y), value);
+    imageStore(output_image, at + ivec2(push.store_x, push.store_y), value);
 }
 #endif
 

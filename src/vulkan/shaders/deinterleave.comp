@@ -5,7 +5,7 @@
 #define OUTPUT_ARRAY
 #include "common.glsl"
 
-/* Takes the depth layers apart: DEPTH_EDGE here is what the written image has. */
+/* Deinterleaves the depth layers by phase; DEPTH_EDGE is that of the written image. */
 void main()
 {
     const ivec2 at = pixel_of_invocation();

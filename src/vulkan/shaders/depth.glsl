@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Depth encodings to planar depth with background +inf: src/core/depth.c, which reckons
- * in double precision. In single precision a hardware depth v must be counted from the
- * end where what it maps to is smaller, by u = v or u = 1 - v (exact for v from 1/2 to
- * 1): 1/d = 1/far + (1/near - 1/far) u with perspective, d = near + (far - near) u
- * without. Both then add numbers of one sign and cancel nothing.
+ * in double precision. In single precision a depth v between planes must be counted from
+ * the end at which its map is smaller, by u = v or u = 1 - v (exact for v from 1/2 to 1):
+ * 1/d = 1/far + (1/near - 1/far) u with perspective, d = near + (far - near) u without.
+ * Both then add numbers of one sign and cancel nothing. In [-1, 1] the factor is half.
  */
 #ifndef DEPTH_GLSL
 #define DEPTH_GLSL
@@ -13,16 +13,28 @@
 
 /* crv_depth_encoding */
 const int DEPTH_PLANAR = 0, DEPTH_RADIAL = 1, DEPTH_HARDWARE = 2, DEPTH_REVERSED = 3,
-          DEPTH_DISPARITY = 4;
+          DEPTH_DISPARITY = 4, DEPTH_NORMALISED = 5, DEPTH_NORMALISED_REVERSED = 6,
+          DEPTH_GL = 7, DEPTH_LOGARITHMIC = 8;
 
-float planar_of_hardware(float v)
+bool is_reversed(int encoding)
 {
-    const bool reversed = push.depth_encoding == DEPTH_REVERSED;
-    if (!(v >= 0 && v <= 1) || v == (reversed ? 0 : 1))
+    return encoding == DEPTH_REVERSED || encoding == DEPTH_NORMALISED_REVERSED;
+}
+
+bool is_normalised(int encoding)
+{
+    return encoding == DEPTH_NORMALISED || encoding == DEPTH_NORMALISED_REVERSED;
+}
+
+float planar_between_planes(float v)
+{
+    const int encoding = push.depth_encoding;
+    const float low = encoding == DEPTH_GL ? -1 : 0;
+    if (!(v >= low && v <= 1) || v == (is_reversed(encoding) ? 0 : 1))
         return INFINITY;
-    const float u = reversed == is_orthographic() ? 1 - v : v;
-    precise float affine = push.depth_a + push.depth_b * u;
-    if (is_orthographic())
+    const float u = push.depth_b < 0 ? 1 - v : v;
+    precise float affine = push.depth_a + abs(push.depth_b) * u;
+    if (is_orthographic() || is_normalised(encoding))
         return affine;
     return affine > 0 ? 1 / affine : INFINITY;
 }
@@ -39,8 +51,11 @@ float planar_of_radial(ivec2 at, float v)
 float decoded_depth(ivec2 at, float v)
 {
     const int encoding = push.depth_encoding;
-    if (encoding == DEPTH_HARDWARE || encoding == DEPTH_REVERSED)
-        return planar_of_hardware(v);
+    if (encoding == DEPTH_HARDWARE || encoding == DEPTH_GL || is_reversed(encoding)
+        || is_normalised(encoding))
+        return planar_between_planes(v);
+    if (encoding == DEPTH_LOGARITHMIC)
+        return v < 1 ? exp2(push.depth_b * v) - 1 : INFINITY;
     if (encoding == DEPTH_DISPARITY)
         return 1 / v;
     if (!(v < push.depth_background))
@@ -51,7 +66,7 @@ float decoded_depth(ivec2 at, float v)
 /* Of the host's image. */
 float planar_depth(ivec2 at)
 {
-    const float v = texelFetch(host_depth, at, 0).r;
+    const float v = texelFetch(host_depth, at + ivec2(push.host_x, push.host_y), 0).r;
     if (is_nan(v))
         return INFINITY;
     const float d = decoded_depth(at, v);

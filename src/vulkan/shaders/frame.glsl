@@ -66,9 +66,9 @@ vec2 image_offset(ivec2 from, ivec2 to)
  * place only, one of the workgroup: then a compiler sees that all of it is alike. */
 ivec2 noise_pixel(ivec2 at)
 {
-    if (INTERLEAVE <= 1 || INTERLEAVE % noise_size() != 0)
+    if (PIXEL_STRIDE <= 1 || PIXEL_STRIDE % noise_size() != 0)
         return at;
-    return ivec2(push.out_x, push.out_y) + ivec2(gl_WorkGroupID.xy) % INTERLEAVE;
+    return ivec2(push.out_x, push.out_y) + ivec2(gl_WorkGroupID.xy) % PIXEL_STRIDE;
 }
 
 crv__noise_texel noise_at(ivec2 at)

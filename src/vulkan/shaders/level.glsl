@@ -5,15 +5,17 @@
  * Mara, Luebke: Scalable Ambient Obscurance, HPG 2012). A level holds depths of level 0
  * as they are, of one texel in the middle of each block, not means of them: a sample is
  * moved to that texel and remains a point of the surface, so that a plane still finds
- * itself open. It is another draw of the estimate, not the same image; hence off unless
- * LOD_PX is set.
+ * itself open. Different samples, same expected error; hence off unless LOD_PX is set.
  */
 #ifndef LEVEL_GLSL
 #define LEVEL_GLSL
 
 #include "common.glsl"
 
-/* Level 1 from so many pixels on, level 2 from twice as many, and so on; 0: level 0. */
+const int MOST_LEVELS = 6; /* CRV__MOST_LEVELS (memory.h) */
+
+/* Distance from which level 1 is read, px; level 2 from twice as far, and so on. 0: level
+ * 0 alone. */
 layout(constant_id = 19) const int LOD_PX = 0;
 
 bool uses_levels()
@@ -27,7 +29,9 @@ int level_at(float distance_px)
     if (!uses_levels())
         return 0;
     const int level = findMSB(int(distance_px / float(LOD_PX))) + 1;
-    return min(level, textureQueryLevels(depth_image) - 1);
+    /* The coarsest has more than 4 texels a side (scratch.c). */
+    const int coarsest = findMSB(min(params.width, params.height) / 5);
+    return clamp(level, 0, clamp(coarsest, 0, MOST_LEVELS - 1));
 }
 
 /* The texel of level 0 that a level's texel is a copy of. */

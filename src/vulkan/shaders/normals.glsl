@@ -63,9 +63,10 @@ vec3 decoded_normal(vec4 stored)
         n = octahedral_decoded(n.xy);
     else if (push.normal_encoding == NORMAL_OCT_HALVED)
         n = octahedral_decoded(n.xy * 2 - 1);
-    return vec3(push.to_view[0] * n.x + push.to_view[1] * n.y + push.to_view[2] * n.z,
-                push.to_view[3] * n.x + push.to_view[4] * n.y + push.to_view[5] * n.z,
-                push.to_view[6] * n.x + push.to_view[7] * n.y + push.to_view[8] * n.z);
+    return vec3(
+        push.to_view_xx * n.x + push.to_view_xy * n.y + push.to_view_xz * n.z,
+        push.to_view_yx * n.x + push.to_view_yy * n.y + push.to_view_yz * n.z,
+        push.to_view_zx * n.x + push.to_view_zy * n.y + push.to_view_zz * n.z);
 }
 
 /* The edge from the pixel to its neighbours on one axis: towards the neighbour that is
@@ -124,7 +125,8 @@ vec3 final_normal(ivec2 at, float d)
 {
     vec3 n = vec3(0);
     if (push.normal_encoding != NORMAL_NONE)
-        n = normalized(decoded_normal(texelFetch(host_normals, at, 0)));
+        n = normalized(decoded_normal(
+            texelFetch(host_normals, at + ivec2(push.host_x, push.host_y), 0)));
     if (n == vec3(0))
         n = normal_from_depth(at, d);
     return facing_camera(at, d, n);

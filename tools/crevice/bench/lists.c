@@ -12,7 +12,7 @@
 enum { WORD_SIZE = 64, NAMES_MAX = 64 };
 
 static const char *const structure_names[] = {"deinterleaved", "exact"};
-static const char *const layout_names[] = {"plain", "deinterleaved", "levels"};
+static const char *const layout_names[] = {"linear", "deinterleaved", "levels"};
 static const char *const arithmetic_names[] = {"single", "half"};
 
 const char *bench_structure_name(int32_t index)
@@ -304,7 +304,7 @@ int bench_choose(const bench_settings *s, bench_choices *out, report *r)
         result = choose_of("--structure", structure_names, 2, &s->structures,
                            "deinterleaved", &out->structures, r);
     if (result == EXIT_DONE)
-        result = choose_of("--depth-layout", layout_names, 3, &s->depth_layouts, "plain",
+        result = choose_of("--depth-layout", layout_names, 3, &s->depth_layouts, "linear",
                            &out->layouts, r);
     if (result == EXIT_DONE)
         result = choose_of("--arithmetic", arithmetic_names, 2, &s->arithmetic, "single",

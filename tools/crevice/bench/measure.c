@@ -41,7 +41,7 @@ static int open_context(const bench_settings *s, const bench_case *c, memory *m,
     common_settings common = s->common;
 
     common.threads = (arg_int){true, c->threads};
-    common.depth_layout = (crv_depth_layout)c->layout;
+    common.depth_layout = c->layout;
     common.half_filters = c->arithmetic == 1;
     if (device_is_cpu(&common)) {
         common.isa = (arg_int){true, c->isa + 1};

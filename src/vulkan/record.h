@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT */
+/* The one recorder: what a pass and a plan do with a frame. */
+#ifndef CRV_VULKAN_RECORD_H
+#define CRV_VULKAN_RECORD_H
+
+#include "vulkan/barriers.h"
+#include "vulkan/slot.h"
+
+/* Depth layers, normals and accessibility in a buffer, on their way to the device and
+ * back. */
+typedef struct crv__staging {
+    crv__buffer buffer;
+    size_t normals, accessibility, size; /* where they lie, bytes; depth is first */
+} crv__staging;
+
+/* A frame to be recorded. Depth and normals come from the host's images, or from a
+ * staging buffer, to which accessibility then goes back. */
+typedef struct crv__job {
+    const crv__setup *setup;       /* of this frame's size */
+    const crv_vulkan_frame *frame; /* NULL: staging */
+    const crv__staging *staging;   /* NULL: frame */
+    bool has_normals;              /* of the frame */
+    bool filter_only;              /* of staging: its accessibility is the estimate */
+    crv__push push;                /* encodings of the frame */
+} crv__job;
+
+/* Records the job with the numbers that crv__slot_fill() left in the slot. */
+void crv__record(crv__slot *slot, VkCommandBuffer commands, const crv__job *job);
+
+#endif
