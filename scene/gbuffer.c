@@ -140,7 +140,7 @@ static void cast_pixel(const scene *s, const scene_gbuffer_request *r,
     vec3 normal = v3(0.0, 0.0, 0.0), albedo = normal;
     if (found) {
         normal = to_view(axes, surface_normal(s, &ray, &hit, r->normals));
-        albedo = v3_from(s->mesh.colours + 3 * (size_t)s->mesh.materials[hit.triangle]);
+        albedo = v3_from(s->mesh.palette[s->mesh.materials[hit.triangle]].albedo);
     }
     v3_store(normal, g->normals + 3 * pixel);
     v3_store(albedo, g->albedo + 3 * pixel);

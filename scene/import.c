@@ -16,6 +16,7 @@
 #include <sys/prctl.h>
 #endif
 
+#include "gltf.h"
 #include "import_assimp.h"
 #include "internal.h"
 
@@ -98,7 +99,7 @@ static void confine(pid_t parent, const scene_limits *limits)
 /* In the child. */
 static int read_model(const char *path, import *out, const crv_logger *log)
 {
-    if (import_assimp(path, out, log))
+    if (gltf_is(path) ? gltf_read(path, out, log) : import_assimp(path, out, log))
         return -1;
     if (out->mesh.failed)
         scene_log(log, CRV_LOG_ERROR, path,

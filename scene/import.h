@@ -13,7 +13,13 @@
 /* What a reader finds. */
 typedef struct import {
     mesh mesh;
+    scene_camera *cameras; /* owned; finished by the parent, see finish() in load.c */
+    size_t camera_count;
 } import;
+
+/* Adds a camera that looks from `eye` along -back; false: no memory. */
+bool import_add_camera(import *found, const char *name, const scene_view *lens,
+                       float aspect, vec3 eye, vec3 back, vec3 up);
 
 void import_free(import *found);
 

@@ -12,24 +12,10 @@
 #include "import_memory.h"
 #include "import_shift.h"
 #include "internal.h"
-#include "normals.h"
+#include "part.h"
 
-#define CREASE_RAD     (60.0 * SCENE_PI / 180.0)
 #define DEFAULT_ALBEDO 0.8
 #define MAX_NODE_DEPTH 512
-
-/* Rows of the affine map from a node to the world. */
-typedef struct transform {
-    vec3 row[3];
-    vec3 offset;
-} transform;
-
-/* The map of normals: the inverse transpose times |determinant|, which has the same
- * direction and needs no division. */
-typedef struct normal_map {
-    vec3 row[3];
-    bool mirrors;
-} normal_map;
 
 typedef struct loader {
     const char *path;
@@ -41,36 +27,11 @@ typedef struct loader {
 static transform transform_of_node(const struct aiNode *node, const transform *parent)
 {
     const struct aiMatrix4x4 *m = &node->mTransformation;
-    const vec3 column[4] = {v3((double)m->a1, (double)m->b1, (double)m->c1),
-                            v3((double)m->a2, (double)m->b2, (double)m->c2),
-                            v3((double)m->a3, (double)m->b3, (double)m->c3),
-                            v3((double)m->a4, (double)m->b4, (double)m->c4)};
-    transform t;
-    for (int i = 0; i < 3; i++)
-        t.row[i] =
-            v3(v3_dot(parent->row[i], column[0]), v3_dot(parent->row[i], column[1]),
-               v3_dot(parent->row[i], column[2]));
-    t.offset = v3_add(parent->offset, v3(v3_dot(parent->row[0], column[3]),
-                                         v3_dot(parent->row[1], column[3]),
-                                         v3_dot(parent->row[2], column[3])));
-    return t;
-}
-
-static vec3 multiply(const vec3 row[3], vec3 v)
-{
-    return v3(v3_dot(row[0], v), v3_dot(row[1], v), v3_dot(row[2], v));
-}
-
-static normal_map normal_map_of(const transform *t)
-{
-    normal_map n = {{v3_cross(t->row[1], t->row[2]), v3_cross(t->row[2], t->row[0]),
-                     v3_cross(t->row[0], t->row[1])},
-                    false};
-    n.mirrors = v3_dot(t->row[0], n.row[0]) < 0.0;
-    if (n.mirrors)
-        for (int i = 0; i < 3; i++)
-            n.row[i] = v3_scale(n.row[i], -1.0);
-    return n;
+    const transform own = {{v3((double)m->a1, (double)m->a2, (double)m->a3),
+                            v3((double)m->b1, (double)m->b2, (double)m->b3),
+                            v3((double)m->c1, (double)m->c2, (double)m->c3)},
+                           v3((double)m->a4, (double)m->b4, (double)m->c4)};
+    return transform_compose(parent, &own);
 }
 
 /* The base or diffuse colour. Files without materials get assimp's own default, which
@@ -113,65 +74,16 @@ static uint32_t *pack_indices(const struct aiMesh *part, size_t *triangle_count)
     return indices;
 }
 
-static uint32_t add_vertex(mesh *m, const struct aiMesh *part, size_t vertex,
-                           const float normal[3], const transform *t, const normal_map *n)
+/* assimp turns every format's coordinates to v up from the picture's lower edge. NULL:
+ * out of memory. */
+static float *pack_uvs(const struct aiMesh *part)
 {
-    const struct aiVector3D *p = &part->mVertices[vertex];
-    vec3 position = v3((double)p->x, (double)p->y, (double)p->z);
-    uint32_t added = mesh_add_vertex(m, v3_add(multiply(t->row, position), t->offset),
-                                     multiply(n->row, v3_from(normal)));
-    /* assimp turns every format's coordinates to v up from the picture's lower edge. */
-    if (part->mTextureCoords[0])
-        mesh_set_uv(m, added, (double)part->mTextureCoords[0][vertex].x,
-                    1.0 - (double)part->mTextureCoords[0][vertex].y);
-    return added;
-}
-
-static void add_triangle(mesh *m, const uint32_t corner[3], bool mirrors)
-{
-    mesh_add_triangle(m, corner[0], corner[mirrors ? 2 : 1], corner[mirrors ? 1 : 2]);
-}
-
-static void add_with_own_normals(mesh *m, const struct aiMesh *part,
-                                 const uint32_t *indices, size_t triangle_count,
-                                 const transform *t)
-{
-    normal_map n = normal_map_of(t);
-    uint32_t base = (uint32_t)m->vertex_count;
-    mesh_reserve(m, part->mNumVertices, triangle_count);
-    for (size_t v = 0; v < part->mNumVertices && !m->failed; v++) {
-        const struct aiVector3D *normal = &part->mNormals[v];
-        add_vertex(m, part, v, (const float[3]){normal->x, normal->y, normal->z}, t, &n);
+    float *uvs = malloc((2 * (size_t)part->mNumVertices + 1) * sizeof *uvs);
+    for (size_t v = 0; uvs && v < part->mNumVertices; v++) {
+        uvs[2 * v] = part->mTextureCoords[0][v].x;
+        uvs[2 * v + 1] = (float)(1.0 - (double)part->mTextureCoords[0][v].y);
     }
-    for (size_t i = 0; i < triangle_count && !m->failed; i++) {
-        const uint32_t corner[3] = {base + indices[3 * i], base + indices[3 * i + 1],
-                                    base + indices[3 * i + 2]};
-        add_triangle(m, corner, n.mirrors);
-    }
-}
-
-static void add_with_computed_normals(mesh *m, const struct aiMesh *part,
-                                      const uint32_t *indices, size_t triangle_count,
-                                      const transform *t)
-{
-    normal_map n = normal_map_of(t);
-    float *normals = malloc((9 * triangle_count + 1) * sizeof *normals);
-    if (!normals
-        || !smooth_normals(&part->mVertices[0].x, part->mNumVertices, indices,
-                           triangle_count, CREASE_RAD, normals)) {
-        free(normals);
-        m->failed = true;
-        return;
-    }
-    mesh_reserve(m, 3 * triangle_count, triangle_count);
-    for (size_t i = 0; i < triangle_count && !m->failed; i++) {
-        uint32_t corner[3];
-        for (size_t c = 0; c < 3; c++)
-            corner[c] =
-                add_vertex(m, part, indices[3 * i + c], normals + 9 * i + 3 * c, t, &n);
-        add_triangle(m, corner, n.mirrors);
-    }
-    free(normals);
+    return uvs;
 }
 
 static void add_part(loader *l, const struct aiMesh *part, const transform *t)
@@ -179,18 +91,22 @@ static void add_part(loader *l, const struct aiMesh *part, const transform *t)
     mesh *m = &l->mesh;
     size_t triangle_count = 0;
     uint32_t *indices = pack_indices(part, &triangle_count);
-    if (!indices) {
+    float *uvs = part->mTextureCoords[0] ? pack_uvs(part) : NULL;
+    if (!indices || (part->mTextureCoords[0] && !uvs))
         m->failed = true;
-        return;
-    }
-    if (triangle_count > 0) {
+    if (!m->failed && triangle_count > 0) {
+        const mesh_part triangles = {.vertex_count = part->mNumVertices,
+                                     .triangle_count = triangle_count,
+                                     .positions = &part->mVertices[0].x,
+                                     .normals =
+                                         part->mNormals ? &part->mNormals[0].x : NULL,
+                                     .uvs = uvs,
+                                     .indices = indices};
         if (part->mMaterialIndex < l->file->mNumMaterials)
             set_material(l, l->file->mMaterials[part->mMaterialIndex]);
-        if (part->mNormals)
-            add_with_own_normals(m, part, indices, triangle_count, t);
-        else
-            add_with_computed_normals(m, part, indices, triangle_count, t);
+        mesh_add_part(m, &triangles, t);
     }
+    free(uvs);
     free(indices);
 }
 
@@ -224,12 +140,10 @@ static void bound_node(const loader *l, const struct aiNode *node,
         const struct aiMesh *part = node->mMeshes[i] < l->file->mNumMeshes
                                         ? l->file->mMeshes[node->mMeshes[i]]
                                         : NULL;
-        for (size_t v = 0; part && part->mVertices && v < part->mNumVertices; v++) {
-            const struct aiVector3D *p = &part->mVertices[v];
-            v3_bound(v3_add(multiply(t.row, v3((double)p->x, (double)p->y, (double)p->z)),
-                            t.offset),
-                     lower, upper);
-        }
+        if (part && part->mVertices)
+            mesh_part_bound(&(mesh_part){.vertex_count = part->mNumVertices,
+                                         .positions = &part->mVertices[0].x},
+                            &t, lower, upper);
     }
     for (unsigned i = 0; node->mChildren && i < node->mNumChildren; i++)
         if (node->mChildren[i] && depth < MAX_NODE_DEPTH)
@@ -287,7 +201,7 @@ static const struct aiScene *read_file(const char *path, mesh *m, const crv_logg
 
 int import_assimp(const char *path, import *out, const crv_logger *log)
 {
-    transform root = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}};
+    transform root = transform_identity();
     loader l = {.path = path, .log = log};
     l.file = read_file(path, &l.mesh, log);
     if (!l.file)

@@ -21,13 +21,38 @@ typedef struct record {
 } record;
 
 typedef struct result_head {
-    uint64_t vertex_count, triangle_count, colour_count, dropped_triangles;
+    uint64_t vertex_count, triangle_count, palette_count, mask_count, camera_count;
+    uint64_t dropped_triangles;
     double origin[3];
 } result_head;
 
 void import_free(import *found)
 {
     mesh_free(&found->mesh);
+    free(found->cameras);
+    *found = (import){0};
+}
+
+bool import_add_camera(import *found, const char *name, const scene_view *lens,
+                       float aspect, vec3 eye, vec3 back, vec3 up)
+{
+    enum { MAX_CAMERAS = 4096 };
+    if (found->camera_count == MAX_CAMERAS)
+        return true;
+    scene_camera *grown =
+        realloc(found->cameras, (found->camera_count + 1) * sizeof *grown);
+    if (!grown)
+        return false;
+    scene_camera *c = &grown[found->camera_count];
+    *c = (scene_camera){.view = *lens, .aspect = aspect};
+    for (size_t i = 0; name && name[i] && i + 1 < sizeof c->name; i++)
+        c->name[i] = name[i];
+    v3_store_double(eye, c->view.eye);
+    v3_store_double(v3_sub(eye, v3_normalise(back)), c->view.target);
+    v3_store_double(v3_normalise(up), c->view.up);
+    found->cameras = grown;
+    found->camera_count++;
+    return true;
 }
 
 double import_clock(void)
@@ -75,7 +100,7 @@ typedef struct part {
     size_t spare; /* bytes behind it */
 } part;
 
-enum { PART_COUNT = 6 };
+enum { PART_COUNT = 8 };
 
 static void list_parts(import *i, const result_head *h, part parts[PART_COUNT])
 {
@@ -86,7 +111,9 @@ static void list_parts(import *i, const result_head *h, part parts[PART_COUNT])
         {(void **)&m->uvs, h->vertex_count, 2 * sizeof(float), 0},
         {(void **)&m->indices, h->triangle_count, 3 * sizeof(uint32_t), 0},
         {(void **)&m->materials, h->triangle_count, sizeof(uint32_t), 0},
-        {(void **)&m->colours, h->colour_count, 3 * sizeof(float), 0}};
+        {(void **)&m->palette, h->palette_count, sizeof(mesh_material), 0},
+        {(void **)&m->masks, h->mask_count, sizeof(mesh_mask), 0},
+        {(void **)&i->cameras, h->camera_count, sizeof(scene_camera), 0}};
     memcpy(parts, list, sizeof list);
 }
 
@@ -97,7 +124,9 @@ bool import_pipe_send(int fd, const import *found)
     const result_head counts = {
         .vertex_count = m->vertex_count,
         .triangle_count = m->triangle_count,
-        .colour_count = m->colour_count,
+        .palette_count = m->palette_count,
+        .mask_count = m->mask_count,
+        .camera_count = found->camera_count,
         .dropped_triangles = m->dropped_triangles,
         .origin = {m->origin[0], m->origin[1], m->origin[2]},
     };
@@ -109,6 +138,10 @@ import copy = * found;
     for (int i = 0; i < PART_COUNT; i++)
         if (!send_bytes(fd, *parts[i].data,
                         (size_t)parts[i].count * parts[i].element_size))
+            return false;
+    for (size_t i = 0; i < m->mask_count; i++)
+        if (!send_bytes(fd, m->masks[i].alpha,
+                        (size_t)m->masks[i].width * (size_t)m->masks[i].height))
             return false;
     return true;
 }
@@ -162,7 +195,7 @@ static bool is_sound(const mesh *m)
     if (!mesh_usable_position(v3_from_double(m->origin)))
         return false;
     for (size_t t = 0; t < m->triangle_count; t++) {
-        if (m->materials[t] >= m->colour_count)
+        if (m->materials[t] >= m->palette_count)
             return false;
         for (size_t k = 3 * t; k < 3 * t + 3; k++)
             if (m->indices[k] >= m->vertex_count
@@ -170,10 +203,51 @@ static bool is_sound(const mesh *m)
                 || !(v3_length(mesh_normal(m, m->indices[k])) < 2.0))
                 return false;
     }
-    for (size_t i = 0; i < 3 * m->colour_count; i++)
-        if (!(m->colours[i] >= 0.0f && m->colours[i] <= 1.0f))
+    for (size_t i = 0; i < m->palette_count; i++) {
+        const mesh_material *p = &m->palette[i];
+        for (int k = 0; k < 3; k++)
+            if (!(p->albedo[k] >= 0.0f && p->albedo[k] <= 1.0f))
+                return false;
+        if (p->mask < -1 || (p->mask >= 0 && (uint64_t)p->mask >= m->mask_count))
             return false;
+    }
     return true;
+}
+
+/* Names end, and numbers are finite: the rest of a view is checked where it is used. */
+static bool are_sound_cameras(const scene_camera *cameras, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const scene_view *v = &cameras[i].view;
+        if (!memchr(cameras[i].name, 0, sizeof cameras[i].name)
+            || !isfinite(cameras[i].aspect) || !isfinite(v->vfov_rad)
+            || !isfinite(v->view_height)
+            || (v->projection != CRV_PERSPECTIVE && v->projection != CRV_ORTHOGRAPHIC))
+            return false;
+        for (int k = 0; k < 3; k++)
+            if (!isfinite(v->eye[k] + v->target[k] + v->up[k]))
+                return false;
+    }
+    return true;
+}
+
+/* The masks' pictures follow the arrays. */
+static import_end receive_masks(int fd, double deadline, mesh *m)
+{
+    import_end end = IMPORT_DONE;
+    for (size_t i = 0; i < m->mask_count; i++)
+        m->masks[i].alpha = NULL;
+    for (size_t i = 0; i < m->mask_count && end == IMPORT_DONE; i++) {
+        mesh_mask *mask = &m->masks[i];
+        if (mask->width < 1 || mask->width > MESH_MAX_MASK || mask->height < 1
+            || mask->height > MESH_MAX_MASK)
+            return IMPORT_DAMAGED;
+        const size_t size = (size_t)mask->width * (size_t)mask->height;
+        mask->alpha = malloc(size);
+        end = mask->alpha ? receive_bytes(fd, deadline, mask->alpha, size)
+                          : IMPORT_NO_MEMORY;
+    }
+    return end;
 }
 
 static import_end receive_result(int fd, double deadline, const record *head, import *out)
@@ -186,7 +260,8 @@ static import_end receive_result(int fd, double deadline, const record *head, im
     if (end != IMPORT_DONE)
         return end;
     if (counts.vertex_count > UINT32_MAX || counts.triangle_count > UINT32_MAX
-        || counts.colour_count > UINT32_MAX)
+        || counts.palette_count > UINT32_MAX || counts.mask_count > INT32_MAX
+        || counts.camera_count > INT16_MAX)
         return IMPORT_DAMAGED;
     list_parts(out, &counts, parts);
     for (int i = 0; i < PART_COUNT && end == IMPORT_DONE; i++) {
@@ -199,10 +274,16 @@ static import_end receive_result(int fd, double deadline, const record *head, im
     out->mesh.vertex_count = out->mesh.vertex_capacity = (size_t)counts.vertex_count;
     out->mesh.triangle_count = out->mesh.triangle_capacity =
         (size_t)counts.triangle_count;
-    out->mesh.colour_count = out->mesh.colour_capacity = (size_t)counts.colour_count;
+    out->mesh.palette_count = out->mesh.palette_capacity = (size_t)counts.palette_count;
+    out->camera_count = (size_t)counts.camera_count;
+    if (end != IMPORT_DONE)
+        return end; /* the masks' pictures are not there yet, nor is their count */
+    out->mesh.mask_count = out->mesh.mask_capacity = (size_t)counts.mask_count;
+    end = receive_masks(fd, deadline, &out->mesh);
     out->mesh.dropped_triangles = (size_t)counts.dropped_triangles;
     memcpy(out->mesh.origin, counts.origin, sizeof counts.origin);
-    if (end == IMPORT_DONE && !is_sound(&out->mesh))
+    if (end == IMPORT_DONE
+        && (!is_sound(&out->mesh) || !are_sound_cameras(out->cameras, out->camera_count)))
         end = IMPORT_DAMAGED;
     return end;
 }

@@ -18,6 +18,8 @@ struct scene {
     bool has_view; /* a view that it was made for, at this field of view and aspect */
     scene_view view;
     float view_aspect;
+    scene_camera *cameras;
+    int32_t camera_count;
 };
 
 /* Takes the mesh (also on failure) and prepares it for ray casting. */

@@ -13,7 +13,10 @@ void mesh_free(mesh *m)
     free(m->uvs);
     free(m->indices);
     free(m->materials);
-    free(m->colours);
+    free(m->palette);
+    for (size_t i = 0; i < m->mask_count; i++)
+        free(m->masks[i].alpha);
+    free(m->masks);
     memset(m, 0, sizeof *m);
 }
 
@@ -79,21 +82,42 @@ static float clamped(double value)
     return value < 1.0 ? (float)value : 1.0f;
 }
 
+/* Room for one more of the palette or the masks. */
+static bool make_room(mesh *m, void *array, size_t count, size_t *capacity, size_t size)
+{
+    if (m->failed || count < *capacity)
+        return !m->failed;
+    const size_t grown = grown_capacity(*capacity, 1);
+    m->failed = !resize(array, grown, size, 0);
+    if (!m->failed)
+        *capacity = grown;
+    return !m->failed;
+}
+
 void mesh_set_colour(mesh *m, double r, double g, double b)
 {
-    if (m->colour_count == m->colour_capacity) {
-        size_t capacity = grown_capacity(m->colour_capacity, 1);
-        if (m->failed || !resize(&m->colours, capacity, 3 * sizeof(float), 0)) {
-            m->failed = true;
-            return;
-        }
-        m->colour_capacity = capacity;
+    if (!make_room(m, &m->palette, m->palette_count, &m->palette_capacity,
+                   sizeof *m->palette))
+        return;
+    m->palette[m->palette_count] =
+        (mesh_material){.albedo = {clamped(r), clamped(g), clamped(b)}, .mask = -1};
+    m->material = (uint32_t)m->palette_count++;
+}
+
+int32_t mesh_add_mask(mesh *m, const mesh_mask *mask)
+{
+    if (!make_room(m, &m->masks, m->mask_count, &m->mask_capacity, sizeof *m->masks)) {
+        free(mask->alpha);
+        return -1;
     }
-    float *colour = m->colours + 3 * m->colour_count;
-    colour[0] = clamped(r);
-    colour[1] = clamped(g);
-    colour[2] = clamped(b);
-    m->material = (uint32_t)m->colour_count++;
+    m->masks[m->mask_count] = *mask;
+    return (int32_t)m->mask_count++;
+}
+
+void mesh_set_mask(mesh *m, int32_t mask)
+{
+    if (!m->failed && m->palette_count > 0)
+        m->palette[m->material].mask = mask;
 }
 
 /* Beyond this many times its size from zero a mesh loses to rounding what rays notice:
@@ -185,7 +209,7 @@ void mesh_add_triangle(mesh *m, uint32_t a, uint32_t b, uint32_t c)
         m->dropped_triangles++;
         return;
     }
-    if (m->colour_count == 0)
+    if (m->palette_count == 0)
         mesh_set_colour(m, DEFAULT_ALBEDO, DEFAULT_ALBEDO, DEFAULT_ALBEDO);
     a = with_usable_normal(m, a, normal);
     b = with_usable_normal(m, b, normal);

@@ -16,6 +16,22 @@
  * them must fit a float inside the ray caster. */
 #define MESH_MAX_COORDINATE 1e12
 
+/* Where a picture's alpha leaves a hole in triangles with texture coordinates. */
+typedef struct mesh_mask {
+    unsigned char *alpha;  /* width * height, row 0 on top; owned */
+    int32_t width, height; /* 1 to MESH_MAX_MASK */
+    int32_t wrap[2];       /* of u and v */
+    float cutoff;          /* there is a surface where alpha / 255 is at least that */
+    float map[6];          /* u' = map[0] u + map[1] v + map[2], v' = map[3] u + ... */
+} mesh_mask;
+
+enum { MESH_WRAP_REPEAT, MESH_WRAP_CLAMP, MESH_WRAP_MIRROR, MESH_MAX_MASK = 32768 };
+
+typedef struct mesh_material {
+    float albedo[3]; /* linear */
+    int32_t mask;    /* into masks; -1: none */
+} mesh_material;
+
 typedef struct mesh {
     double origin[3]; /* world coordinates of the positions' zero; set before the first
                          vertex: floats cannot hold a bolt at map coordinates */
@@ -24,10 +40,12 @@ typedef struct mesh {
     float *uvs;       /* 2 a vertex, v down over the map; NaN: none */
     size_t vertex_count, vertex_capacity;
     uint32_t *indices;   /* 3 a triangle, counter-clockwise seen from the front */
-    uint32_t *materials; /* 1 a triangle, into colours */
+    uint32_t *materials; /* 1 a triangle, into the palette */
     size_t triangle_count, triangle_capacity;
-    float *colours; /* 3 a material: linear albedo */
-    size_t colour_count, colour_capacity;
+    mesh_material *palette;
+    size_t palette_count, palette_capacity;
+    mesh_mask *masks;
+    size_t mask_count, mask_capacity;
     uint32_t material;        /* of the triangles to come */
     size_t dropped_triangles; /* degenerate or not finite */
     bool failed;              /* out of memory */
@@ -38,8 +56,17 @@ void mesh_free(mesh *m);
 /* Makes room for so many more; only saves time and memory. */
 void mesh_reserve(mesh *m, size_t vertices, size_t triangles);
 
-/* Further triangles get this linear albedo, clamped to [0, 1]. */
+/* Further triangles get this linear albedo, clamped to [0, 1], and no mask. */
 void mesh_set_colour(mesh *m, double r, double g, double b);
+
+/* Takes the mask, also on failure; its index, or -1. */
+int32_t mesh_add_mask(mesh *m, const mesh_mask *mask);
+
+/* Triangles of the colour that was set last get this mask. */
+void mesh_set_mask(mesh *m, int32_t mask);
+
+/* Whether there is a surface at these texture coordinates; NaN: yes. */
+bool mesh_mask_covers(const mesh_mask *mask, double u, double v);
 
 /* Chooses the origin of an empty mesh for the bounds of what is to come, world space:
  * zero unless the whole is far from it for its size. */

@@ -58,6 +58,26 @@ static void set_bounds(scene *s)
     }
 }
 
+/* Lets rays pass where a mask has a hole. Single rays only: N is 1. */
+static void pass_holes(const struct RTCFilterFunctionNArguments *arguments)
+{
+    const mesh *m = arguments->geometryUserPtr;
+    const struct RTCHit *hit = (const struct RTCHit *)(const void *)arguments->hit;
+    const int32_t mask = m->palette[m->materials[hit->primID]].mask;
+    if (mask < 0)
+        return;
+    const uint32_t *index = m->indices + 3 * (size_t)hit->primID;
+    const double weight[3] = {1.0 - (double)hit->u - (double)hit->v, (double)hit->u,
+                              (double)hit->v};
+    double u = 0.0, v = 0.0;
+    for (int i = 0; i < 3; i++) {
+        u += weight[i] * (double)m->uvs[2 * (size_t)index[i]];
+        v += weight[i] * (double)m->uvs[2 * (size_t)index[i] + 1];
+    }
+    if (!mesh_mask_covers(&m->masks[mask], u, v))
+        arguments->valid[0] = 0;
+}
+
 static bool build_acceleration(scene *s)
 {
     /* One thread builds: how parallel builds order the triangles, and with it which of
@@ -72,6 +92,11 @@ static bool build_acceleration(scene *s)
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                s->mesh.indices, 0, 3 * sizeof(uint32_t),
                                s->mesh.triangle_count);
+    if (s->mesh.mask_count > 0) {
+        rtcSetGeometryUserData(geometry, &s->mesh);
+        rtcSetGeometryIntersectFilterFunction(geometry, pass_holes);
+        rtcSetGeometryOccludedFilterFunction(geometry, pass_holes);
+    }
     rtcCommitGeometry(geometry);
     s->rtc = rtcNewScene(s->device);
     rtcSetSceneFlags(s->rtc, RTC_SCENE_FLAG_ROBUST | EMBREE_SCENE_FLAG_FILTER);
@@ -134,7 +159,18 @@ void scene_free(scene *s)
     if (s->device)
         rtcReleaseDevice(s->device);
     mesh_free(&s->mesh);
+    free(s->cameras);
     free(s);
+}
+
+int32_t scene_camera_count(const scene *s)
+{
+    return s->camera_count;
+}
+
+const scene_camera *scene_camera_at(const scene *s, int32_t index)
+{
+    return index >= 0 && index < s->camera_count ? &s->cameras[index] : NULL;
 }
 
 int64_t scene_triangle_count(const scene *s)

@@ -78,6 +78,17 @@ typedef struct scene_view {
     float view_height;               /* orthographic: scene units */
 } scene_view;
 
+/* A camera of the file. Its target lies before the scene's centre. */
+typedef struct scene_camera {
+    char name[64]; /* of its node, else its own; may be empty, or another's, too */
+    scene_view view;
+    float aspect; /* width / height; 0: not told */
+} scene_camera;
+
+/* In the order of the file; NULL beyond the last. */
+int32_t scene_camera_count(const scene *s);
+const scene_camera *scene_camera_at(const scene *s, int32_t index);
+
 /* A view that shows the whole scene from a little above (built-in scenes: the view that
  * they were made for), +Y up, with this field of view and aspect = width / height. */
 void scene_frame(const scene *s, float vfov_rad, float aspect, scene_view *out);

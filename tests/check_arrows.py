@@ -57,14 +57,15 @@ SYSTEM = {
     "src/cpu": STANDARD,
 }
 
-# Libraries that belong to one room. Vulkan's headers are for the backend, for the public
+# Libraries that belong to some rooms. Vulkan's headers are for the backend, for the public
 # header that takes its handles, and for programs that use that.
 OWNED = {
-    r"(openexr|OpenEXR|png|zlib)": "io",
-    r"(embree\d*/|assimp/)": "scene",
-    r"(cjson/|cJSON)": "tools/",
-    r"gtk/": "tools/view",
-    r"Python\.h": "python",
+    r"(openexr|OpenEXR|zlib)": ("io",),
+    r"png": ("io", "scene"),
+    r"(embree\d*/|assimp/)": ("scene",),
+    r"(cjson/|cJSON)": ("tools/", "scene"),
+    r"gtk/": ("tools/view",),
+    r"Python\.h": ("python",),
 }
 
 # Headers that the build makes, and their rooms.
@@ -115,9 +116,10 @@ def fault_of(root, path, name, quoted):
         return f"includes <{name}>, which {room}/ may not"
     if name.startswith("vulkan/") and room not in ("src/vulkan", "include/crevice", "examples"):
         return f"includes <{name}>, which belongs to src/vulkan/"
-    for pattern, owner in OWNED.items():
-        if re.match(pattern, name) and not (room + "/").startswith(owner):
-            return f"includes <{name}>, which belongs to {owner.rstrip('/')}/"
+    for pattern, owners in OWNED.items():
+        if re.match(pattern, name) and not (room + "/").startswith(owners):
+            rooms = " and ".join(owner.rstrip("/") + "/" for owner in owners)
+            return f"includes <{name}>, which belongs to {rooms}"
     return None
 
 
