@@ -33,6 +33,7 @@ function(tool_test name)
 endfunction()
 
 tool_test(tool_help)
+tool_test(tool_manual)
 tool_test(tool_render)
 tool_test(tool_methods)
 tool_test(tool_relief)

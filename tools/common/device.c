@@ -16,7 +16,7 @@ static const char *const isa_choices[] = {"auto",   "scalar", "sse4", "avx2",
 
 static const arg device_rows[] = {
     {.name = "--device",
-     .value = "NAME",
+     .value = "DEVICE",
      .type = ARG_TEXT,
      .computed = "cpu",
      .offset = offsetof(common_settings, device),

@@ -5,6 +5,20 @@
 
 enum { WIDTH = 90, COLUMN = 27, ENTRY_SIZE = 1024 };
 
+static void open_plain(FILE *out, const command *c);
+static void write_paragraph(FILE *out, const char *text);
+static void write_heading(FILE *out, const char *text);
+static void write_entry(FILE *out, const char *head, const char *text);
+static void write_item(FILE *out, const char *head, const char *text);
+static void close_plain(FILE *out, const command *c);
+
+static const help_style plain = {.opening = open_plain,
+                                 .paragraph = write_paragraph,
+                                 .heading = write_heading,
+                                 .entry = write_entry,
+                                 .item = write_item,
+                                 .closing = close_plain};
+
 /* Words of text from column `column` on, indented by `indent` where a line breaks. */
 static void write_wrapped(FILE *out, const char *text, int column, int indent)
 {
@@ -38,22 +52,28 @@ static void write_entry(FILE *out, const char *head, const char *text)
     write_wrapped(out, text, COLUMN, COLUMN);
 }
 
-static void write_row(FILE *out, const arg *row)
+/* What stands before a row's help: "-o, --output FILE". */
+static void row_head(const arg *row, char *out, size_t size)
 {
-    char shorthand[8] = "", head[128], values[256], text[ENTRY_SIZE];
-    const char *initial = row->computed ? row->computed : row->initial;
+    char shorthand[8] = "";
 
     if (row->short_name != 0)
         snprintf(shorthand, sizeof shorthand, "-%c, ", row->short_name);
-    snprintf(head, sizeof head, "%s%s%s%s", shorthand, row->name, row->value ? " " : "",
+    snprintf(out, size, "%s%s%s%s", shorthand, row->name, row->value ? " " : "",
              row->value ? row->value : "");
+}
+
+/* The help with values and default behind it. */
+static void row_text(const arg *row, char *out, size_t size)
+{
+    const char *initial = row->computed ? row->computed : row->initial;
+    char values[256];
+
     args_describe_values(row, values, sizeof values);
     const bool has_values = values[0] != '\0';
-    snprintf(text, sizeof text, "%s%s%s%s%s%s%s", row->help,
-             has_values || initial ? " [" : "", values, has_values && initial ? "; " : "",
-             initial ? "default " : "", initial ? initial : "",
-             has_values || initial ? "]" : "");
-    write_entry(out, head, text);
+    snprintf(out, size, "%s%s%s%s%s%s%s", row->help, has_values || initial ? " [" : "",
+             values, has_values && initial ? "; " : "", initial ? "default " : "",
+             initial ? initial : "", has_values || initial ? "]" : "");
 }
 
 void help_option_flag(const crv_option *option, char *out, size_t size)
@@ -104,7 +124,8 @@ void help_option_default(const crv_option *option, const crv_method *method, cha
         snprintf(out, size, "%.6g", value);
 }
 
-void help_library_option(FILE *out, const crv_option *option, const crv_method *method)
+static void write_option(FILE *out, const help_style *style, const crv_option *option,
+                         const crv_method *method)
 {
     static const char *const value_names[] = {"X", "N", "on|off", "NAME"};
     char flag[80], head[96], values[256], initial[64], text[ENTRY_SIZE];
@@ -116,7 +137,12 @@ void help_library_option(FILE *out, const crv_option *option, const crv_method *
     if (strcmp(option->key, "radius") == 0)
         snprintf(initial, sizeof initial, "chosen to suit the input");
     snprintf(text, sizeof text, "%s [%s; default %s]", option->help, values, initial);
-    write_entry(out, head, text);
+    style->entry(out, head, text);
+}
+
+void help_library_option(FILE *out, const crv_option *option, const crv_method *method)
+{
+    write_option(out, &plain, option, method);
 }
 
 void help_presets(FILE *out, const crv_method *method, int indent)
@@ -128,7 +154,7 @@ void help_presets(FILE *out, const crv_method *method, int indent)
     }
 }
 
-static void write_presets(FILE *out, const crv_method *method)
+static void write_presets(FILE *out, const help_style *style, const crv_method *method)
 {
     char text[ENTRY_SIZE];
     size_t used = (size_t)snprintf(text, sizeof text, "what to spend: ");
@@ -141,53 +167,92 @@ static void write_presets(FILE *out, const crv_method *method)
                  ". Options that are given themselves win over it [default %s]. For "
                  "--method %s:",
                  crv_preset_name(CRV_PRESET_MEDIUM), method->name);
-    write_entry(out, "--preset NAME", text);
-    help_presets(out, method, COLUMN + 2);
+    style->entry(out, "--preset NAME", text);
+    for (int i = 0; i < CRV_PRESET_COUNT; i++)
+        style->item(out, crv_preset_name((crv_preset)i),
+                    crv_preset_text(method, (crv_preset)i));
 }
 
-static void write_library_options(FILE *out, const char *command_name,
+static void write_library_options(FILE *out, const help_style *style, const command *c,
                                   const crv_method *method)
 {
-    char text[ENTRY_SIZE] = "how to estimate: ";
-    size_t used = strlen(text);
+    char text[ENTRY_SIZE];
 
-    fprintf(out,
-            "\nAmbient occlusion (see `crevice methods` for which method reads what; "
-            "defaults here\nare those of %s, `crevice %s --method NAME --help` has "
-            "another's):\n",
-            method->name, command_name);
+    style->heading(out, "Ambient occlusion");
+    snprintf(text, sizeof text,
+             "`crevice methods` says which method reads what. Defaults here are those of "
+             "%s; `crevice %s --method NAME --help` has another's.",
+             method->name, c->name);
+    style->paragraph(out, text);
+    size_t used = (size_t)snprintf(text, sizeof text, "how to estimate: ");
     for (int32_t i = 0; i < crv_method_count() && used < sizeof text; i++)
         used += (size_t)snprintf(text + used, sizeof text - used, "%s%s",
                                  i == 0 ? "" : "|", crv_method_at(i)->name);
-    write_entry(out, "--method NAME", text);
-    write_presets(out, method);
+    style->entry(out, "--method NAME", text);
+    write_presets(out, style, method);
     used = (size_t)snprintf(text, sizeof text, "how to smooth the result: none");
     for (int32_t i = 0; i < crv_filter_count() && used < sizeof text; i++)
         used += (size_t)snprintf(text + used, sizeof text - used, "|%s",
                                  crv_filter_at(i)->name);
-    write_entry(out, "--filter NAME", text);
+    style->entry(out, "--filter NAME", text);
     for (int32_t i = 0; i < crv_option_count(); i++)
-        help_library_option(out, crv_option_at(i), method);
+        write_option(out, style, crv_option_at(i), method);
+}
+
+void help_write(FILE *out, const help_style *style, const command *c,
+                const crv_method *method)
+{
+    style->opening(out, c);
+    if (c->details)
+        style->paragraph(out, c->details);
+    for (size_t t = 0; c->tables[t]; t++) {
+        style->heading(out, c->tables[t]->title);
+        for (size_t i = 0; i < c->tables[t]->count; i++) {
+            char head[128], text[ENTRY_SIZE];
+            row_head(&c->tables[t]->rows[i], head, sizeof head);
+            row_text(&c->tables[t]->rows[i], text, sizeof text);
+            style->entry(out, head, text);
+        }
+    }
+    if (c->library_options)
+        write_library_options(out, style, c, method);
+    style->closing(out, c);
+}
+
+static void open_plain(FILE *out, const command *c)
+{
+    fprintf(out, "usage: crevice %s %s\n\n", c->name, c->synopsis);
+    write_wrapped(out, c->summary, 0, 0);
+}
+
+static void write_paragraph(FILE *out, const char *text)
+{
+    fputc('\n', out);
+    write_wrapped(out, text, 0, 0);
+}
+
+static void write_heading(FILE *out, const char *text)
+{
+    fprintf(out, "\n%s:\n", text);
+}
+
+static void write_item(FILE *out, const char *head, const char *text)
+{
+    const int column = fprintf(out, "%*s%-8s", COLUMN + 2, "", head);
+
+    write_wrapped(out, text, column, column);
+}
+
+static void close_plain(FILE *out, const command *c)
+{
+    write_heading(out, "Examples");
+    for (size_t i = 0; c->examples[i]; i += 2)
+        fprintf(out, "  # %s\n  %s\n", c->examples[i], c->examples[i + 1]);
 }
 
 void help_command(FILE *out, const command *c, const crv_method *method)
 {
-    fprintf(out, "usage: crevice %s %s\n\n", c->name, c->synopsis);
-    write_wrapped(out, c->summary, 0, 0);
-    if (c->details) {
-        fputc('\n', out);
-        write_wrapped(out, c->details, 0, 0);
-    }
-    for (size_t t = 0; c->tables[t]; t++) {
-        fprintf(out, "\n%s:\n", c->tables[t]->title);
-        for (size_t i = 0; i < c->tables[t]->count; i++)
-            write_row(out, &c->tables[t]->rows[i]);
-    }
-    if (c->library_options)
-        write_library_options(out, c->name, method);
-    fprintf(out, "\nExamples:\n");
-    for (size_t i = 0; c->examples[i]; i += 2)
-        fprintf(out, "  # %s\n  %s\n", c->examples[i], c->examples[i + 1]);
+    help_write(out, &plain, c, method);
 }
 
 void help_overview(FILE *out, const command *const *commands)

@@ -7,6 +7,19 @@
 
 #include "args.h"
 
+/* How a command's help is set: as text, or as a manual page. The words are the same. */
+typedef struct help_style {
+    void (*opening)(FILE *out, const command *c); /* name, synopsis, summary */
+    void (*paragraph)(FILE *out, const char *text);
+    void (*heading)(FILE *out, const char *text);
+    void (*entry)(FILE *out, const char *head, const char *text); /* an option */
+    void (*item)(FILE *out, const char *head, const char *text);  /* below an entry */
+    void (*closing)(FILE *out, const command *c);                 /* examples */
+} help_style;
+
+void help_write(FILE *out, const help_style *style, const command *c,
+                const crv_method *method);
+
 /* All about one command; presets and defaults are those of the method. */
 void help_command(FILE *out, const command *c, const crv_method *method);
 

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-#include <cjson/cJSON.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "commands.h"
 #include "common/device.h"
+#include "common/json.h"
 
 typedef struct devices_settings {
     common_settings common;
@@ -44,11 +43,11 @@ static void add_device(cJSON *list, int32_t index, const crv_device_info *info)
     char name[32];
 
     snprintf(name, sizeof name, "vulkan:%d", index);
-    cJSON_AddStringToObject(object, "device", name);
-    cJSON_AddStringToObject(object, "name", info->name);
-    cJSON_AddStringToObject(object, "driver", info->driver);
+    json_add_text(object, "device", name);
+    json_add_text(object, "name", info->name);
+    json_add_text(object, "driver", info->driver);
     cJSON_AddBoolToObject(object, "software", info->software);
-    cJSON_AddStringToObject(object, "missing", info->missing);
+    json_add_text(object, "missing", info->missing);
     cJSON_AddItemToArray(list, object);
 }
 
@@ -72,7 +71,7 @@ static int run(const void *settings, report *r)
     device_list_isas(sets, sizeof sets);
     if (!s->json)
         printf("%-10s %s\n", "cpu", sets);
-    cJSON_AddStringToObject(root, "cpu", sets);
+    json_add_text(root, "cpu", sets);
     while (crv_vulkan_device_info(count, &info, &logger) == CRV_OK) {
         if (!s->json)
             print_device(count, &info);
@@ -81,16 +80,12 @@ static int run(const void *settings, report *r)
     if (count == 0 && why[0] == '\0')
         snprintf(why, sizeof why, "vulkan: there is no device; install a driver");
     if (count == 0)
-        cJSON_AddStringToObject(root, "vulkan_missing", why);
+        json_add_text(root, "vulkan_missing", why);
     if (count == 0 && !s->json)
         printf("%s\n", why);
-    char *line = s->json ? cJSON_Print(root) : NULL;
+    if (s->json)
+        return json_print(root, r);
     cJSON_Delete(root);
-    if (s->json && !line)
-        return report_no_memory(r);
-    if (line)
-        puts(line);
-    cJSON_free(line);
     return EXIT_DONE;
 }
 

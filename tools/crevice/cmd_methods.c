@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-#include <cjson/cJSON.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "commands.h"
 #include "common/help.h"
+#include "common/json.h"
 #include "common/nearest.h"
 
 typedef struct methods_settings {
@@ -148,17 +148,16 @@ static cJSON *option_json(const crv_option *option, const crv_method *method)
 static void add_method(cJSON *list, const crv_method *method)
 {
     cJSON *object = cJSON_CreateObject();
-    cJSON *options, *presets;
 
     cJSON_AddStringToObject(object, "name", method->name);
     cJSON_AddStringToObject(object, "title", method->title);
     cJSON_AddStringToObject(object, "paper", method->paper);
     cJSON_AddStringToObject(object, "weighting", weighting_name(method->weighting));
-    options = cJSON_AddArrayToObject(object, "options");
+    cJSON *options = cJSON_AddArrayToObject(object, "options");
     for (int32_t i = 0; i < crv_option_count(); i++)
         if (method_reads(crv_option_at(i), method))
             cJSON_AddItemToArray(options, option_json(crv_option_at(i), method));
-    presets = cJSON_AddObjectToObject(object, "presets");
+    cJSON *presets = cJSON_AddObjectToObject(object, "presets");
     for (int i = 0; i < CRV_PRESET_COUNT; i++)
         cJSON_AddStringToObject(presets, crv_preset_name((crv_preset)i),
                                 crv_preset_text(method, (crv_preset)i));
@@ -194,13 +193,7 @@ static int print_json(const crv_method *method, const crv_filter *filter, report
     for (int32_t i = 0; i < crv_filter_count(); i++)
         if (all || crv_filter_at(i) == filter)
             add_filter(list, crv_filter_at(i));
-    char *text = cJSON_Print(root);
-    cJSON_Delete(root);
-    if (!text)
-        return report_no_memory(r);
-    puts(text);
-    cJSON_free(text);
-    return EXIT_DONE;
+    return json_print(root, r);
 }
 
 static int unknown_name(const char *name, report *r)

@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "common/help.h"
+#include "common/manual.h"
 #include "common/nearest.h"
 
 #ifdef _OPENMP
@@ -40,12 +41,40 @@ static const command *find_command(const char *name, report *r)
     return NULL;
 }
 
+/* For packages: `help --man [COMMAND]`, `help --completion SHELL`, and `help --pages DIR`
+ * for all of them. */
+static int help_as_pages(int argc, char **argv, report *r)
+{
+    if (strcmp(argv[0], "--man") == 0) {
+        if (argc < 2) {
+            manual_overview(stdout, commands);
+            return EXIT_DONE;
+        }
+        const command *c = find_command(argv[1], r);
+        if (c)
+            manual_command(stdout, c);
+        return c ? EXIT_DONE : EXIT_USAGE;
+    }
+    if (argc == 2 && strcmp(argv[0], "--pages") == 0)
+        return manual_write_all(argv[1], commands, r);
+    if (argc == 2 && strcmp(argv[0], "--completion") == 0
+        && completion_write(stdout, argv[1], commands))
+        return EXIT_DONE;
+    report_error(r,
+                 "help %s: give --man [COMMAND], --pages DIR or --completion SHELL, for "
+                 "bash, zsh or fish",
+                 argv[0]);
+    return EXIT_USAGE;
+}
+
 static int help(int argc, char **argv, report *r)
 {
     if (argc == 0) {
         help_overview(stdout, commands);
         return EXIT_DONE;
     }
+    if (strncmp(argv[0], "--", 2) == 0)
+        return help_as_pages(argc, argv, r);
     const command *c = find_command(argv[0], r);
     if (!c)
         return EXIT_USAGE;
