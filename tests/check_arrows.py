@@ -49,7 +49,7 @@ uchar.h wchar.h wctype.h""".split())
 SYSTEM = {
     "include/crevice": {"stdbool.h", "stddef.h", "stdint.h", "vulkan/vulkan.h"},
     "src/shared": {"stddef.h", "stdint.h"},  # offsetof pins layouts
-    "src/base": STANDARD | {"malloc.h", "omp.h", "sys/mman.h"},  # the systems' allocators
+    "src/base": STANDARD | {"malloc.h", "omp.h", "pthread.h", "sys/mman.h", "xlocale.h"},  # the systems' allocators
     "src/core": STANDARD,
     "src/methods": STANDARD,
     "src/filters": STANDARD,

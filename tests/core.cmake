@@ -8,6 +8,13 @@ crevice_test(test_conformance SOURCES test_conformance.c LIBS crevice_fixture)
 crevice_test(test_gbuffer SOURCES test_gbuffer.c LIBS crevice_fixture)
 crevice_test(test_options SOURCES test_options.c LIBS crevice_fixture)
 crevice_test(test_api SOURCES test_api.c LIBS crevice_fixture)
+crevice_test(test_ao SOURCES test_ao.c LIBS crevice_fixture)
+# More threads than the system can start are not tried.
+add_test(NAME test_ao_many_threads COMMAND test_ao)
+set_tests_properties(test_ao_many_threads PROPERTIES
+    ENVIRONMENT OMP_NUM_THREADS=100000 TIMEOUT ${CREVICE_TEST_TIMEOUT})
+crevice_test(test_set_options SOURCES test_set_options.c LIBS crevice_fixture)
+crevice_test(test_locale SOURCES test_locale.c LIBS crevice_fixture)
 crevice_test(test_camera SOURCES test_camera.c LIBS crevice_fixture)
 crevice_test(test_filters SOURCES test_filters.c LIBS crevice_fixture)
 crevice_test(test_rows SOURCES test_rows.c LIBS crevice_fixture)

@@ -77,7 +77,7 @@ typedef struct crv_logger {
 } crv_logger;
 
 /* Where memory comes from. Both functions or neither (then malloc's aligned cousin is
- * used, and on Linux huge pages are asked for where a block has 8 MiB or more). Called
+ * used, and on Linux huge pages are asked for if a block has 2 MiB or more). Called
  * only inside create, set and destroy functions, never inside crv_plan_run(). */
 typedef struct crv_allocator {
     /* Returns `size` bytes (> 0) aligned to `alignment` (a power of two), or NULL. */

@@ -115,6 +115,17 @@ CRV_API crv_status crv_plan_create(crv_context *context, const crv_options *opti
 CRV_API void crv_plan_destroy(crv_plan *plan);
 
 /*
+ * Gives the plan new options, as if it had been made with them, without taking memory:
+ * what a slider or an animation changes. The result has the same bits as that of a new
+ * plan. A new plan is needed for another method; for a filter where there was none, none
+ * where there was one, or, with a guard band, one of another radius; for another
+ * noise_size; and for directions, steps and samples that take more memory than at first,
+ * as a larger or an odd number may. Then the plan stays as it is, and the line in the log
+ * names the option. Errors: INVALID_ARGUMENT; UNSUPPORTED if it takes a new plan.
+ */
+CRV_API crv_status crv_plan_set_options(crv_plan *plan, const crv_options *options);
+
+/*
  * Computes the accessibility of every pixel inside the guard band, filtered if the
  * options say so: 1 is open, 0 fully occluded, background is 1; always finite and in [0,
  * 1]. result: one channel, width - guard_left - guard_right by height - guard_top -

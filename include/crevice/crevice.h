@@ -38,6 +38,7 @@
 #ifndef CREVICE_H
 #define CREVICE_H
 
+#include "ao.h"
 #include "base.h"
 #include "camera.h"
 #include "context.h"

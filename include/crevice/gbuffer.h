@@ -57,6 +57,18 @@ typedef struct crv_depth_format {
 /* Planar depth without a background threshold: what most callers want. Thread-safe. */
 CRV_API crv_depth_format crv_depth_format_planar(void);
 
+/*
+ * Converts depth of any encoding to planar depth, background as +INFINITY, without a
+ * G-buffer. depth and planar: one channel, of the same size; they may be the same image.
+ * format NULL: planar. camera: of the image; its kind of projection counts, and for
+ * radial depth all of it. logger: gets the reason for a failure; NULL: nobody. Errors:
+ * INVALID_ARGUMENT. Thread-safe.
+ */
+CRV_API crv_status crv_depth_convert(const crv_const_image *depth,
+                                     const crv_depth_format *format,
+                                     const crv_camera *camera, const crv_image *planar,
+                                     const crv_logger *logger);
+
 /* The space in which normals are given. */
 typedef enum crv_normal_space {
     CRV_NORMAL_VIEW = 0, /* as camera.h defines it */

@@ -12,6 +12,9 @@
  * Strides are in bytes, multiples of 4, and may be negative (a bottom-up image points
  * data at its last row). data is aligned to 4 bytes.
  *
+ * Calls that compute take floats. Pixels of other types, such as half floats, doubles or
+ * integers, are converted first: crv_image_convert().
+ *
  * Everything here is thread-safe.
  */
 #ifndef CREVICE_IMAGE_H
@@ -85,6 +88,37 @@ static inline const float *crv_const_image_at(const crv_const_image *image, int3
                                          + (ptrdiff_t)x * image->pixel_stride
                                          + (ptrdiff_t)c * image->channel_stride);
 }
+
+/* The types of pixels that crv_image_convert() takes. */
+typedef enum crv_texel {
+    CRV_TEXEL_FLOAT = 0,
+    CRV_TEXEL_DOUBLE = 1,
+    CRV_TEXEL_HALF = 2, /* IEEE 754 binary16, as GPUs and EXR files have it */
+    CRV_TEXEL_UINT8 = 3,
+    CRV_TEXEL_UINT16 = 4,
+    CRV_TEXEL_INT16 = 5
+} crv_texel;
+
+/* Pixels of another type. Strides are in bytes and need no alignment. A value v becomes
+ * v * scale + offset. */
+typedef struct crv_texels {
+    const void *data;
+    crv_texel type;
+    int32_t width, height, channels; /* as in crv_image */
+    ptrdiff_t row_stride, pixel_stride, channel_stride;
+    double scale;  /* default 1; 1 / 65535.0 for a 16-bit depth buffer, 2 / 255.0 ... */
+    double offset; /* default 0; ... and -1 for normals in 8 bits */
+} crv_texels;
+
+/* A view of tightly packed memory: rows without padding, components interleaved. */
+CRV_API crv_texels crv_texels_packed(const void *data, crv_texel type, int32_t width,
+                                     int32_t height, int32_t channels);
+
+/* Writes the pixels as floats to an image of the same size and channels, which must not
+ * share their memory. logger: gets the reason for a failure; NULL: nobody. Errors:
+ * INVALID_ARGUMENT. */
+CRV_API crv_status crv_image_convert(const crv_texels *from, const crv_image *to,
+                                     const crv_logger *logger);
 
 #ifdef __cplusplus
 }

@@ -10,7 +10,7 @@
  * depth, background INFINITY. The frame's camera and depth views must be set. Returns 0,
  * or -1 after an error line.
  */
-int io__convert_depth(const char *path, const crv_depth_format *format, io_frame *frame,
+int io__convert_depth(const crv_depth_format *format, io_frame *frame,
                       const crv_logger *log);
 
 #endif

@@ -216,7 +216,7 @@ int io_frame_load(const char *path, const io_passes_request *request, io_frame *
     for (int32_t i = 0; i < names.layers; i++)
         frame.depth[i] = view_of(&frame.image, i, 1);
     const crv_depth_format format = settle_format(request);
-    if (io__convert_depth(path, &format, &frame, log)) {
+    if (io__convert_depth(&format, &frame, log)) {
         io_frame_free(&frame);
         return -1;
     }

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "base/log.h"
 
+#include "base/numbers.h"
+
 #include <stdarg.h>
-#include <stdio.h>
 
 static void log_line(const crv_logger *logger, crv_log_level level, const char *format,
                      va_list arguments)
@@ -10,7 +11,7 @@ static void log_line(const crv_logger *logger, crv_log_level level, const char *
     if (!logger || !logger->fn)
         return;
     char line[512];
-    vsnprintf(line, sizeof line, format, arguments);
+    crv__number_print(line, sizeof line, format, arguments);
     logger->fn(logger->user, level, line);
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "base/names.h"
 
-#include <ctype.h>
+#include <stdbool.h>
 #include <string.h>
 
 enum { LONGEST = 64 };
@@ -10,6 +10,11 @@ static size_t clipped_length(const char *text)
 {
     size_t length = strlen(text);
     return length < LONGEST ? length : LONGEST;
+}
+
+static char folded(char c)
+{
+    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
 }
 
 /* Levenshtein distance of the first LONGEST characters, letters folded. */
@@ -23,8 +28,7 @@ static size_t edit_distance(const char *a, const char *b)
         size_t diagonal = row[0];
         row[0] = i;
         for (size_t j = 1; j <= length_b; j++) {
-            int differs =
-                tolower((unsigned char)a[i - 1]) != tolower((unsigned char)b[j - 1]);
+            const bool differs = folded(a[i - 1]) != folded(b[j - 1]);
             size_t best = diagonal + (size_t)differs;
             if (row[j] + 1 < best)
                 best = row[j] + 1;

@@ -3,7 +3,15 @@
 
 #if defined(_OPENMP)
 #include <omp.h>
-enum { MAX_THREADS = 1024 };
+
+/* OpenMP's own choice comes from the environment, which may ask for more threads than the
+ * system can start; more than four for each processor never help. */
+static int default_team(void)
+{
+    const int most = 4 * omp_get_num_procs();
+    const int chosen = omp_get_max_threads();
+    return chosen < most ? chosen : most;
+}
 #endif
 
 void crv__parallel_for(const crv_parallel *hook, int32_t threads, uint32_t count,
@@ -14,10 +22,7 @@ void crv__parallel_for(const crv_parallel *hook, int32_t threads, uint32_t count
         return;
     }
 #if defined(_OPENMP)
-    /* OMP_NUM_THREADS may be anything. */
-    const int all =
-        omp_get_max_threads() < MAX_THREADS ? omp_get_max_threads() : MAX_THREADS;
-    const int team = threads > 0 ? threads : all;
+    const int team = threads > 0 ? threads : default_team();
     if (team > 1 && count > 1) {
         /* Rows of a picture differ in cost by a factor of ten (sky against grass). */
 #pragma omp parallel for schedule(dynamic, 1) num_threads(team)

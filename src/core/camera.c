@@ -108,7 +108,9 @@ crv_status crv_camera_look_at(crv_camera *camera, const float eye[3],
 
 crv_camera crv_camera_crop(const crv_camera *camera, int32_t x, int32_t y)
 {
-    crv_camera cropped = *camera;
+    crv_camera cropped = {.projection = CRV_PERSPECTIVE};
+    if (camera)
+        cropped = *camera;
     cropped.cx_px -= (float)x;
     cropped.cy_px -= (float)y;
     return cropped;

@@ -130,6 +130,13 @@ void crv_context_destroy(crv_context *context)
 {
     if (!context)
         return;
+    if (context->children > 0) {
+        crv__log(&context->logger, CRV_LOG_ERROR,
+                 "context: not destroyed, since %d of its G-buffers, plans and passes "
+                 "still are in use; destroy them first",
+                 context->children);
+        return;
+    }
     if (context->backend->close)
         context->backend->close(context);
     crv_allocator allocator = context->allocator;

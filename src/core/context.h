@@ -21,6 +21,7 @@ struct crv_context {
     crv_isa isa;                                /* of the host's kernels */
     const struct crv__kernels *kernels;         /* the host's; NULL: the specification */
     void *device;                               /* the backend's; NULL: none */
+    int32_t children; /* G-buffers, plans and passes that have not been destroyed */
 };
 
 /* A context that computes on the host and is not yet anybody's: crv_context_create()

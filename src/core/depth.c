@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Depth encodings, converted once on the way in to planar depth with background INFINITY.
  */
+#include "core/camera.h"
 #include "core/gbuffer.h"
 
 #include <math.h>
@@ -192,5 +193,44 @@ crv_status crv_gbuffer_set_depth(crv_gbuffer *g, int32_t layer,
     g->has_depth |= 1u << layer;
     if (layer == 0)
         g->normals_ready = 0; /* those made from the depth before are out of date */
+    return CRV_OK;
+}
+
+typedef struct convert_job {
+    const crv_const_image *from;
+    const crv_image *to;
+    crv__depth_map map;
+} convert_job;
+
+static void convert_image_row(void *data, uint32_t row)
+{
+    const convert_job *job = data;
+    const int32_t y = (int32_t)row;
+    for (int32_t x = 0; x < job->to->width; x++)
+        *crv_image_at(job->to, x, y, 0) = crv__depth_map_apply(
+            &job->map, x, y, *crv_const_image_at(job->from, x, y, 0));
+}
+
+crv_status crv_depth_convert(const crv_const_image *depth, const crv_depth_format *format,
+                             const crv_camera *camera, const crv_image *planar,
+                             const crv_logger *logger)
+{
+    const int32_t width = depth ? depth->width : 1, height = depth ? depth->height : 1;
+    if (width < 1 || height < 1 || width > CRV_MAX_SIZE || height > CRV_MAX_SIZE)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "depth: %d x %d; width and height are from 1 to %d", width,
+                         height, CRV_MAX_SIZE);
+    convert_job job = {.from = depth, .to = planar};
+    crv_status status = crv__camera_check(logger, camera);
+    if (status == CRV_OK)
+        status = crv__input_check(logger, "depth", depth, width, height, 1);
+    if (status == CRV_OK)
+        status = crv__output_check(logger, "planar depth", planar, width, height, 1);
+    if (status == CRV_OK)
+        status = crv__depth_map_init(&job.map, logger, camera, format);
+    if (status)
+        return status;
+    crv__parallel_for(&(crv_parallel){.run = NULL}, 0, (uint32_t)height,
+                      convert_image_row, &job);
     return CRV_OK;
 }

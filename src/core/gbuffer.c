@@ -93,6 +93,7 @@ crv_status crv_gbuffer_create(crv_context *context, const crv_gbuffer_desc *desc
     crv_gbuffer *g = crv__allocate(&context->allocator, 1, sizeof *g);
     if (g) {
         g->context = context;
+        context->children++;
         g->desc = full;
         if (create_planes(g) == 0) {
             *out = g;
@@ -115,6 +116,7 @@ void crv_gbuffer_destroy(crv_gbuffer *g)
     for (int i = 0; i < 3; i++)
         crv__plane_destroy(&g->normal[i], allocator);
     crv__height_field_release(g);
+    g->context->children--;
     crv__release(allocator, g, 1, sizeof *g);
 }
 

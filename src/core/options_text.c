@@ -4,12 +4,11 @@
 
 #include "base/log.h"
 #include "base/names.h"
+#include "base/numbers.h"
 #include "core/registry.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { MAX_NAMES = 64 };
@@ -62,16 +61,6 @@ static crv_status set_filter(crv_options *options, const char *value,
     return unknown(logger, "filter", value, names, count);
 }
 
-/* The number that the whole text is, or NaN. */
-static double parse_number(const char *text)
-{
-    char *end = NULL;
-    double value = strtod(text, &end);
-    while (end != text && isspace((unsigned char)*end))
-        end++;
-    return end == text || *end ? NAN : value;
-}
-
 /* 1, 0, or -1 where the text is neither. */
 static int parse_bool(const char *text)
 {
@@ -105,7 +94,7 @@ static crv_status parse_value(const crv_option *option, const char *text, double
                              "%s: '%s' is neither on nor off", option->key, text);
         return CRV_OK;
     }
-    *value = parse_number(text);
+    *value = crv__number_parse(text);
     if (isnan(*value) || (option->type == CRV_OPTION_INT && *value != floor(*value)))
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "%s: '%s' is not a%s number; it is from %g to %g%s%s",

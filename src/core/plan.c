@@ -3,6 +3,7 @@
 #include "core/plan.h"
 
 #include "core/gbuffer.h"
+#include "core/options.h"
 
 static bool create_planes(crv_plan *plan)
 {
@@ -47,6 +48,7 @@ crv_status crv_plan_create(crv_context *context, const crv_options *options,
     crv_plan *plan = crv__allocate(&context->allocator, 1, sizeof *plan);
     if (plan) {
         plan->context = context;
+        context->children++;
         plan->setup = setup;
         crv__setup_params(&plan->setup, &plan->params);
         if (crv__setup_patterns(&plan->setup) == CRV_OK && create_planes(plan)) {
@@ -75,6 +77,7 @@ void crv_plan_destroy(crv_plan *plan)
     crv__plane_destroy(&plan->planes[0], allocator);
     crv__plane_destroy(&plan->planes[1], allocator);
     crv__setup_release(s);
+    plan->context->children--;
     crv__release(allocator, plan, 1, sizeof *plan);
 }
 
@@ -89,4 +92,27 @@ bool crv__plan_update(crv_plan *plan, const crv_options *options)
     crv__setup_fill(&plan->setup);
     crv__setup_params(&plan->setup, &plan->params);
     return true;
+}
+
+crv_status crv_plan_set_options(crv_plan *plan, const crv_options *options)
+{
+    if (!plan)
+        return CRV_ERROR_INVALID_ARGUMENT;
+    const crv_logger *logger = &plan->context->logger;
+    crv_options full;
+    const crv_status status = crv__options_take(logger, options, &full);
+    if (status)
+        return status;
+    const char *obstacle = crv__setup_obstacle(&plan->setup, &full);
+    if (obstacle)
+        return crv__fail(logger, CRV_ERROR_UNSUPPORTED,
+                         "plan: %s needs memory that this plan does not have; make a new "
+                         "plan with these options",
+                         obstacle);
+    if (!crv__plan_update(plan, &full))
+        return crv__fail(logger, CRV_ERROR_UNSUPPORTED,
+                         "plan: samples, steps or directions need memory that this plan "
+                         "on %s does not have; make a new plan with these options",
+                         plan->context->backend->name);
+    return CRV_OK;
 }

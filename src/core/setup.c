@@ -157,13 +157,24 @@ static bool same_rectangle(const crv__setup *a, const crv__setup *b)
     return r.x == q.x && r.y == q.y && r.width == q.width && r.height == q.height;
 }
 
+const char *crv__setup_obstacle(const crv__setup *s, const crv_options *options)
+{
+    const crv__setup next = crv__setup_make(s->context, options, &s->desc);
+    if (next.method != s->method)
+        return "method";
+    if (!next.filter != !s->filter || !same_rectangle(&next, s))
+        return "filter";
+    if (noise_count(options) != s->noise_count)
+        return "noise_size";
+    if ((size_t)options->directions > s->direction_count)
+        return "directions";
+    return point_count(s->method, options) > s->point_count ? "samples" : NULL;
+}
+
 bool crv__setup_revise(crv__setup *s, const crv_options *options)
 {
     const crv__setup next = crv__setup_make(s->context, options, &s->desc);
-    if (next.method != s->method || !next.filter != !s->filter
-        || !same_rectangle(&next, s) || noise_count(options) != s->noise_count
-        || (size_t)options->directions > s->direction_count
-        || point_count(s->method, options) > s->point_count)
+    if (crv__setup_obstacle(s, options))
         return false;
     s->filter = next.filter;
     s->options = *options;

@@ -35,6 +35,10 @@ crv__setup crv__setup_make(const crv_context *context, const crv_options *option
 crv_status crv__setup_patterns(crv__setup *setup);
 void crv__setup_release(crv__setup *setup);
 
+/* The key of an option that needs other memory than the setup and its planes have; NULL:
+ * none does. Valid options only. */
+const char *crv__setup_obstacle(const crv__setup *setup, const crv_options *options);
+
 /* Gives the setup other options if all its memory and the planes serve them as well; else
  * changes nothing and returns false. Valid options only. The patterns are out of date
  * until crv__setup_fill(). */

@@ -115,6 +115,7 @@ crv_status crv_vulkan_pass_create(crv_context *context, const crv_options *optio
     if (!p)
         return crv__fail(logger, CRV_ERROR_OUT_OF_MEMORY, "pass: out of memory");
     p->context = context;
+    context->children++;
     p->setup = setup;
     p->desc = full;
     status = create_parts(p);
@@ -132,6 +133,7 @@ void crv_vulkan_pass_destroy(crv_vulkan_pass *p)
     const crv_allocator *allocator = &p->context->allocator;
     crv__pass_destroy(&p->pass, allocator);
     crv__setup_release(&p->setup);
+    p->context->children--;
     crv__release(allocator, p, 1, sizeof *p);
 }
 

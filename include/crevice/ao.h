@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * ao.h: the short way, one call from depth to accessibility. For one picture; a host that
+ * computes many keeps a context, a G-buffer and a plan (context.h), which costs less.
+ */
+#ifndef CREVICE_AO_H
+#define CREVICE_AO_H
+
+#include "gbuffer.h"
+#include "options.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/*
+ * Computes the accessibility of every pixel on the CPU: 1 is open, 0 fully occluded,
+ * background is 1.
+ *
+ * depth: one channel, planar, scene units; for other encodings see crv_depth_convert().
+ * normals: three channels, view space, of the same size; NULL: reconstructed from depth.
+ * camera: camera.h; not NULL. options: NULL for the defaults of hbao, whose radius of
+ * 1 scene unit seldom fits: choose about a tenth of the largest thing in view. result:
+ * one channel, of the same size. logger: gets the reason for a failure, and warnings;
+ * NULL: nobody.
+ *
+ * Takes and gives back about 48 bytes a pixel. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY.
+ * Thread-safe.
+ */
+CRV_API crv_status crv_ao(const crv_const_image *depth, const crv_const_image *normals,
+                          const crv_camera *camera, const crv_options *options,
+                          const crv_image *result, const crv_logger *logger);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,180 @@
+/* SPDX-License-Identifier: MIT */
+/* The short way: crv_ao(), conversions of depth and of other types without a context. */
+#include "fixture.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { WIDTH = 40, HEIGHT = 30, COUNT = WIDTH * HEIGHT };
+
+static const double ONE = 1;
+
+static fixture spheres(void)
+{
+    const crv_camera camera = crv_camera_perspective(WIDTH, HEIGHT, 0.8f);
+    return fixture_make(fixture_spheres, &ONE, &camera, WIDTH, HEIGHT);
+}
+
+static void keep_line(void *user, crv_log_level level, const char *line)
+{
+    (void)level;
+    snprintf(user, 512, "%s", line);
+}
+
+/* One call gives the bits of the long way. */
+static void short_way_is_the_long_way(void **state)
+{
+    (void)state;
+    fixture f = spheres();
+    const crv_const_image depth = crv_const_image_packed(f.depth, WIDTH, HEIGHT, 1);
+    const crv_const_image normals = crv_const_image_packed(f.normals, WIDTH, HEIGHT, 3);
+    float pixels[COUNT];
+    const crv_image result = crv_image_packed(pixels, WIDTH, HEIGHT, 1);
+    const crv_logger strict = fixture_strict_logger();
+    for (int with_normals = 0; with_normals < 2; with_normals++) {
+        crv_options options = fixture_options(with_normals ? "vao" : NULL);
+        const fixture_run run = {.without_normals = !with_normals};
+        float *expected = fixture_compute(&f, &options, &run);
+        assert_int_equal(crv_ao(&depth, with_normals ? &normals : NULL, &f.camera,
+                                with_normals ? &options : NULL, &result, &strict),
+                         CRV_OK);
+        if (!fixture_on_vulkan())
+            assert_memory_equal(pixels, expected, sizeof pixels);
+        free(expected);
+    }
+    fixture_free(&f);
+}
+
+static void short_way_refuses_with_a_line(void **state)
+{
+    (void)state;
+    float pixels[COUNT] = {0};
+    const crv_const_image depth = crv_const_image_packed(pixels, WIDTH, HEIGHT, 1);
+    const crv_const_image wide = crv_const_image_packed(pixels, WIDTH + 1, 2, 1);
+    const crv_image result = crv_image_packed(pixels, WIDTH, HEIGHT, 1);
+    const crv_camera camera = crv_camera_perspective(WIDTH, HEIGHT, 1);
+    crv_options zeroed = {.struct_size = 0};
+    char line[512] = "";
+    const crv_logger logger = {keep_line, line};
+    const crv_status bad = CRV_ERROR_INVALID_ARGUMENT;
+    assert_int_equal(crv_ao(NULL, NULL, &camera, NULL, &result, &logger), bad);
+    assert_non_null(strstr(line, "NULL"));
+    assert_int_equal(crv_ao(&depth, NULL, NULL, NULL, &result, NULL), bad);
+    assert_int_equal(crv_ao(&depth, NULL, &camera, NULL, NULL, NULL), bad);
+    line[0] = 0;
+    assert_int_equal(crv_ao(&wide, NULL, &camera, NULL, &result, &logger), bad);
+    assert_non_null(strstr(line, "expected"));
+    assert_int_equal(crv_ao(&depth, &depth, &camera, NULL, &result, &logger), bad);
+    assert_int_equal(crv_ao(&depth, NULL, &camera, &zeroed, &result, &logger), bad);
+    assert_non_null(strstr(line, "crv_options_init()"));
+}
+
+/* The numbers that a G-buffer would hold, for every encoding; in place, too. */
+static void depth_converts_as_in_a_gbuffer(void **state)
+{
+    (void)state;
+    const crv_depth_encoding encodings[] = {CRV_DEPTH_PLANAR,     CRV_DEPTH_RADIAL,
+                                            CRV_DEPTH_HARDWARE,   CRV_DEPTH_GL,
+                                            CRV_DEPTH_NORMALISED, CRV_DEPTH_LOGARITHMIC};
+    const crv_camera camera = crv_camera_perspective(WIDTH, HEIGHT, 1);
+    float values[COUNT], expected[COUNT], planar[COUNT];
+    for (int i = 0; i < COUNT; i++)
+        values[i] = (float)(i % 97) / 96;
+    values[5] = NAN;
+    values[6] = -2;
+    crv_gbuffer_desc desc;
+    crv_gbuffer_desc_init(&desc, sizeof desc, WIDTH, HEIGHT);
+    crv_context *context = fixture_context_open();
+    crv_gbuffer *gbuffer = NULL;
+    assert_int_equal(crv_gbuffer_create(context, &desc, &gbuffer), CRV_OK);
+    assert_int_equal(crv_gbuffer_set_camera(gbuffer, &camera), CRV_OK);
+    for (size_t i = 0; i < sizeof encodings / sizeof encodings[0]; i++) {
+        const crv_depth_format format = {
+            .encoding = encodings[i], .z_near = 0.5f, .z_far = 20, .background = 0.8f};
+        const crv_const_image from = crv_const_image_packed(values, WIDTH, HEIGHT, 1);
+        const crv_image to = crv_image_packed(planar, WIDTH, HEIGHT, 1);
+        const crv_image reference = crv_image_packed(expected, WIDTH, HEIGHT, 1);
+        assert_int_equal(crv_gbuffer_set_depth(gbuffer, 0, &from, &format), CRV_OK);
+        assert_int_equal(crv_gbuffer_get_depth(gbuffer, 0, &reference), CRV_OK);
+        assert_int_equal(crv_depth_convert(&from, &format, &camera, &to, NULL), CRV_OK);
+        assert_memory_equal(planar, expected, sizeof planar);
+        memcpy(planar, values, sizeof planar);
+        const crv_const_image same = crv_image_const(to);
+        assert_int_equal(crv_depth_convert(&same, &format, &camera, &to, NULL), CRV_OK);
+        assert_memory_equal(planar, expected, sizeof planar);
+    }
+    crv_gbuffer_destroy(gbuffer);
+    fixture_context_close(context);
+    const crv_const_image from = crv_const_image_packed(values, WIDTH, HEIGHT, 1);
+    const crv_image small = crv_image_packed(planar, WIDTH, HEIGHT - 1, 1);
+    const crv_status bad = CRV_ERROR_INVALID_ARGUMENT;
+    assert_int_equal(crv_depth_convert(&from, NULL, &camera, &small, NULL), bad);
+    assert_int_equal(crv_depth_convert(NULL, NULL, &camera, &small, NULL), bad);
+    assert_int_equal(crv_depth_convert(&from, NULL, NULL, &small, NULL), bad);
+}
+
+static void other_types_become_floats(void **state)
+{
+    (void)state;
+    /* IEEE 754-2008, table 3.5: 1, -2, the largest, the least normal and subnormal
+     * numbers, infinity, NaN, -0. */
+    static const uint16_t HALVES[8] = {0x3c00, 0xc000, 0x7bff, 0x0400,
+                                       0x0001, 0x7c00, 0x7e01, 0x8000};
+    static const float VALUES[8] = {1,        -2,       65504, 0x1p-14f,
+                                    0x1p-24f, INFINITY, NAN,   -0.0f};
+    float out[8];
+    const crv_image to = crv_image_packed(out, 4, 2, 1);
+    crv_texels from = crv_texels_packed(HALVES, CRV_TEXEL_HALF, 4, 2, 1);
+    assert_int_equal(crv_image_convert(&from, &to, NULL), CRV_OK);
+    for (int i = 0; i < 8; i++)
+        assert_true(isnan(VALUES[i]) ? isnan(out[i]) : out[i] == VALUES[i]);
+
+    /* The ends of a 16-bit depth buffer are 0 and 1 exactly: 1 is background. */
+    static const uint16_t DEPTHS[8] = {0, 65535, 32768, 1, 2, 3, 4, 5};
+    from = crv_texels_packed(DEPTHS, CRV_TEXEL_UINT16, 4, 2, 1);
+    from.scale = 1 / 65535.0;
+    assert_int_equal(crv_image_convert(&from, &to, NULL), CRV_OK);
+    assert_true(out[0] == 0 && out[1] == 1 && out[2] == (float)(32768 / 65535.0));
+
+    static const double DOUBLES[8] = {0.1, -1e300, 3, 4, 5, 6, 7, 8};
+    from = crv_texels_packed(DOUBLES, CRV_TEXEL_DOUBLE, 4, 2, 1);
+    assert_int_equal(crv_image_convert(&from, &to, NULL), CRV_OK);
+    assert_true(out[0] == 0.1f && isinf(out[1]) && out[7] == 8);
+
+    /* Normals of three in four bytes, the last row first. */
+    static const uint8_t BYTES[2][4] = {{0, 255, 51, 9}, {255, 0, 102, 9}};
+    float normals[2][3];
+    const crv_image vectors = crv_image_packed(normals[0], 1, 2, 3);
+    from = crv_texels_packed(BYTES[1], CRV_TEXEL_UINT8, 1, 2, 3);
+    from.pixel_stride = 4;
+    from.row_stride = -4;
+    from.scale = 2 / 255.0;
+    from.offset = -1;
+    assert_int_equal(crv_image_convert(&from, &vectors, NULL), CRV_OK);
+    assert_true(normals[0][0] == 1 && normals[0][1] == -1 && normals[1][1] == 1);
+    assert_float_equal(normals[1][2], -0.6f, 1e-6); /* 2 * 51 / 255 - 1 */
+
+    static const int16_t SIGNED[2] = {-32767, 5};
+    from = crv_texels_packed(SIGNED, CRV_TEXEL_INT16, 2, 1, 1);
+    const crv_image two = crv_image_packed(out, 2, 1, 1);
+    assert_int_equal(crv_image_convert(&from, &two, NULL), CRV_OK);
+    assert_true(out[0] == -32767 && out[1] == 5);
+
+    const crv_status bad = CRV_ERROR_INVALID_ARGUMENT;
+    assert_int_equal(crv_image_convert(NULL, &two, NULL), bad);
+    assert_int_equal(crv_image_convert(&from, &to, NULL), bad);
+    from.type = (crv_texel)17;
+    assert_int_equal(crv_image_convert(&from, &two, NULL), bad);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(short_way_is_the_long_way),
+        cmocka_unit_test(short_way_refuses_with_a_line),
+        cmocka_unit_test(depth_converts_as_in_a_gbuffer),
+        cmocka_unit_test(other_types_become_floats),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
