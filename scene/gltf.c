@@ -277,20 +277,20 @@ static void add_cameras(reader *r)
         const cJSON *lens = gltf_member(camera, "perspective");
         const cJSON *box = gltf_member(camera, "orthographic");
         const double ymag = gltf_number(box, "ymag", 1.0);
-        const scene_view view = {
-            .projection = box ? CRV_ORTHOGRAPHIC : CRV_PERSPECTIVE,
-            .vfov_rad = (float)gltf_number(lens, "yfov", 0.8),
-            .view_height = (float)(2.0 * fabs(ymag)),
-        };
         const double aspect = box ? fabs(gltf_number(box, "xmag", 0.0) / ymag)
                                   : gltf_number(lens, "aspectRatio", 0.0);
+        const scene_camera like = {
+            .view = {.projection = box ? CRV_ORTHOGRAPHIC : CRV_PERSPECTIVE,
+                     .vfov_rad = (float)gltf_number(lens, "yfov", 0.8),
+                     .view_height = (float)(2.0 * fabs(ymag))},
+            .aspect = isfinite(aspect) ? (float)aspect : 0.0f,
+        };
         const char *name = gltf_text(node, "name");
         const transform *t = &r->worlds[i];
         const vec3 back = transform_direction(t, v3(0, 0, 1));
         const vec3 up = transform_direction(t, v3(0, 1, 0));
         if (!import_add_camera(r->out, name && name[0] ? name : gltf_text(camera, "name"),
-                               &view, isfinite(aspect) ? (float)aspect : 0.0f, t->offset,
-                               back, up))
+                               &like, t->offset, back, up))
             gltf_refuse(r->g, "there is no memory for it");
     }
 }

@@ -17,9 +17,10 @@ typedef struct import {
     size_t camera_count;
 } import;
 
-/* Adds a camera that looks from `eye` along -back; false: no memory. */
-bool import_add_camera(import *found, const char *name, const scene_view *lens,
-                       float aspect, vec3 eye, vec3 back, vec3 up);
+/* Adds a camera that looks from `eye` along -back; false: no memory. like: all but its
+ * name, and eye, target and up of its view. */
+bool import_add_camera(import *found, const char *name, const scene_camera *like,
+                       vec3 eye, vec3 back, vec3 up);
 
 void import_free(import *found);
 

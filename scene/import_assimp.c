@@ -150,6 +150,54 @@ static void bound_node(const loader *l, const struct aiNode *node,
             bound_node(l, node->mChildren[i], &t, depth + 1, lower, upper);
 }
 
+/* The world transform of the node of this name; false: there is none. */
+static bool find_node(const struct aiNode *node, const struct aiString *name,
+                      const transform *parent, int depth, transform *out)
+{
+    const transform t = transform_of_node(node, parent);
+    if (node->mName.length == name->length
+        && memcmp(node->mName.data, name->data, name->length) == 0) {
+        *out = t;
+        return true;
+    }
+    for (unsigned i = 0; node->mChildren && i < node->mNumChildren; i++)
+        if (node->mChildren[i] && depth < MAX_NODE_DEPTH
+            && find_node(node->mChildren[i], name, &t, depth + 1, out))
+            return true;
+    return false;
+}
+
+static vec3 vector_of(const struct aiVector3D *v)
+{
+    return v3((double)v->x, (double)v->y, (double)v->z);
+}
+
+static void add_cameras(const loader *l, const transform *root, import *out)
+{
+    for (unsigned i = 0; l->file->mCameras && i < l->file->mNumCameras; i++) {
+        const struct aiCamera *c = l->file->mCameras[i];
+        transform t = *root;
+        if (!c)
+            continue;
+        find_node(l->file->mRootNode, &c->mName, root, 0, &t);
+        const bool ortho = c->mOrthographicWidth > 0.0f;
+        const double aspect = c->mAspect > 0.0f ? (double)c->mAspect : 16.0 / 9.0;
+        const scene_camera like = {
+            .view = {.projection = ortho ? CRV_ORTHOGRAPHIC : CRV_PERSPECTIVE,
+                     .vfov_rad = 0.8f,
+                     .view_height =
+                         (float)(2.0 * (double)c->mOrthographicWidth / aspect)},
+            .aspect = c->mAspect > 0.0f ? c->mAspect : 0.0f,
+            .hfov_rad = ortho ? 0.0f : c->mHorizontalFOV,
+        };
+        const vec3 ahead = transform_direction(&t, vector_of(&c->mLookAt));
+        if (!import_add_camera(
+                out, c->mName.data, &like, transform_point(&t, vector_of(&c->mPosition)),
+                v3_scale(ahead, -1.0), transform_direction(&t, vector_of(&c->mUp))))
+            return;
+    }
+}
+
 /* Faces without corners, or with corners that are not there, are what importers make of
  * damaged files. assimp's own triangulation would abort or read beyond the vertices. */
 static bool is_sound(const struct aiMesh *part, bool *has_polygons)
@@ -214,6 +262,8 @@ int import_assimp(const char *path, import *out, const crv_logger *log)
             mesh_choose_origin(&l.mesh, lower, upper);
         add_node(&l, l.file->mRootNode, &root, 0);
     }
+    if (l.file->mRootNode)
+        add_cameras(&l, &root, out);
     aiReleaseImport(l.file);
     out->mesh = l.mesh;
     return 0;

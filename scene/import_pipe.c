@@ -33,8 +33,8 @@ void import_free(import *found)
     *found = (import){0};
 }
 
-bool import_add_camera(import *found, const char *name, const scene_view *lens,
-                       float aspect, vec3 eye, vec3 back, vec3 up)
+bool import_add_camera(import *found, const char *name, const scene_camera *like,
+                       vec3 eye, vec3 back, vec3 up)
 {
     enum { MAX_CAMERAS = 4096 };
     if (found->camera_count == MAX_CAMERAS)
@@ -44,7 +44,8 @@ bool import_add_camera(import *found, const char *name, const scene_view *lens,
     if (!grown)
         return false;
     scene_camera *c = &grown[found->camera_count];
-    *c = (scene_camera){.view = *lens, .aspect = aspect};
+    *c = *like;
+    memset(c->name, 0, sizeof c->name);
     for (size_t i = 0; name && name[i] && i + 1 < sizeof c->name; i++)
         c->name[i] = name[i];
     v3_store_double(eye, c->view.eye);
@@ -220,8 +221,8 @@ static bool are_sound_cameras(const scene_camera *cameras, size_t count)
     for (size_t i = 0; i < count; i++) {
         const scene_view *v = &cameras[i].view;
         if (!memchr(cameras[i].name, 0, sizeof cameras[i].name)
-            || !isfinite(cameras[i].aspect) || !isfinite(v->vfov_rad)
-            || !isfinite(v->view_height)
+            || !isfinite(cameras[i].aspect) || !isfinite(cameras[i].hfov_rad)
+            || !isfinite(v->vfov_rad) || !isfinite(v->view_height)
             || (v->projection != CRV_PERSPECTIVE && v->projection != CRV_ORTHOGRAPHIC))
             return false;
         for (int k = 0; k < 3; k++)

@@ -82,7 +82,9 @@ typedef struct scene_view {
 typedef struct scene_camera {
     char name[64]; /* of its node, else its own; may be empty, or another's, too */
     scene_view view;
-    float aspect; /* width / height; 0: not told */
+    float aspect;   /* width / height; 0: not told */
+    float hfov_rad; /* perspective, where the file tells the horizontal field of view: the
+                       vertical one follows from the picture; 0: view.vfov_rad */
 } scene_camera;
 
 /* In the order of the file; NULL beyond the last. */

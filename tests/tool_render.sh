@@ -51,6 +51,43 @@ good render builtin:plane,tilt=60 --size 32x18 -o tilted.png
 bad 2 'angle=X with X from 10 to 170' render builtin:groove,angle=5 -o out.png
 bad 2 'choose one of courtyard, ' render builtin:nowhere -o out.png
 
+# White all over is told of: a plane has nothing that occludes it.
+good render builtin:plane,tilt=30 --size 32x18 -o white.png
+grep -q '^crevice: warning: .*nothing in view is occluded' stderr.txt || fail "white, no word"
+
+# Antialiasing is the mean of a larger picture.
+good render builtin:corner --size 48x28 --aa 3 -o fine.exr --radius 0.5 --guard-px 4
+grep -q '^G-buffer 144x84, guard band 12 px' stderr.txt || fail "--aa 3 is not three times"
+good render builtin:corner --size 144x84 -o large.exr --radius 0.5 --guard-px 12
+good compare --json fine.exr fine.exr
+fine=$(number mean_a)
+[ "$(number pixels)" -eq 1344 ] || fail "--aa changes the picture's size"
+good compare --json large.exr large.exr
+# Sums of floats in another order.
+at_most "$(awk -v a="$fine" -v b="$(number mean_a)" 'BEGIN { print (a - b)^2 }')" 1e-11 \
+    "mean of the antialiased picture, against the large one"
+bad 2 '1 to 16' render builtin:corner --aa 17 -o no.png
+
+# The cameras of a model, by name and by number; names that are not there are told.
+{
+    printf '{"asset":{"version":"2.0"},"scenes":[{"nodes":[0,1,2]}],"nodes":[{"mesh":0},'
+    printf '{"camera":0,"name":"top","translation":[0,9,0],'
+    printf '"rotation":[-0.70710678,0,0,0.70710678]},{"camera":0,"translation":[0,0.5,9]}],'
+    printf '"cameras":[{"type":"perspective","perspective":{"yfov":0.5}}],'
+    printf '"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{'
+    printf '"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],'
+    printf '"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,'
+    printf '"uri":"data:;base64,%s"}]}' "$(floats -1 0 1 1 0 1 0 1 -1 | base64 -w 0)"
+} >cameras.gltf
+good render cameras.gltf --size 32x18 -o top.exr --camera top
+grep -q '^camera: --eye 0,9,0 --target 0,0.5' stderr.txt || fail "the camera called top"
+good render cameras.gltf --size 32x18 -o front.exr --camera 2 --vfov 10
+grep -q '^camera: --eye 0,0.5,9 --target 0,0.5,0 --up 0,1,0 --vfov 10' stderr.txt ||
+    fail "the second camera, with another lens"
+bad 1 'has no camera "side"; choose one of top' render cameras.gltf --camera side -o no.png
+bad 1 'has no camera; ' render builtin:corner --camera top -o no.png
+bad 2 'contradicts --eye' render cameras.gltf --camera top --eye 1,1,1 -o no.png
+
 # Partial cameras, an orthographic one, layers, face normals, no guard band, odd names.
 good render builtin:sphere $small -o "s p ä.png" --eye 3,4,5
 good render builtin:sphere $small -o out1.png --target 0,0,0 --up 0,0,1

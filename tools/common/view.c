@@ -21,6 +21,12 @@ static const arg camera_rows[] = {
      .initial = "1280x720",
      .offset = offsetof(view_settings, size),
      .help = "size of the picture"},
+    {.name = "--camera",
+     .value = "NAME",
+     .type = ARG_TEXT,
+     .offset = offsetof(view_settings, camera),
+     .help = "a camera of the model (glTF, FBX, ...), by its name or its number from 1, "
+             "instead of --eye, --target and --up"},
     {.name = "--eye",
      .value = "X,Y,Z",
      .type = ARG_VECTOR,
@@ -99,7 +105,7 @@ static const arg buffer_rows[] = {
 };
 const arg_table view_buffers = ARG_TABLE("Buffers", buffer_rows);
 
-static int32_t guard_px(const view_settings *s)
+int32_t view_guard_px(const view_settings *s)
 {
     return s->guard_px.given ? s->guard_px.value : (s->size.height + 9) / 10;
 }
@@ -111,9 +117,14 @@ static const char *builtin_name(const char *model)
 
 int view_check(const view_settings *s, report *r)
 {
-    int64_t guard = guard_px(s);
+    int64_t guard = view_guard_px(s);
     const double *up = s->up.value;
 
+    if (s->camera && (s->eye.given || s->target.given || s->up.given)) {
+        report_error(r, "--camera: contradicts --eye, --target and --up; give one or the "
+                        "other");
+        return EXIT_USAGE;
+    }
     if (s->vfov_deg.given && s->ortho.given) {
         report_error(r, "--ortho: contradicts --vfov; give one of them");
         return EXIT_USAGE;
@@ -181,6 +192,52 @@ double view_up_slant(const scene_view *v)
     return cross2 / (d2 * up2);
 }
 
+/* By its name, else by its number; NULL: there is none. */
+static const scene_camera *find_camera(const scene *model, const char *name)
+{
+    char *end;
+
+    for (int32_t i = 0; i < scene_camera_count(model); i++)
+        if (strcmp(scene_camera_at(model, i)->name, name) == 0)
+            return scene_camera_at(model, i);
+    const long number = strtol(name, &end, 10);
+    return *end == '\0' && number >= 1 && number <= scene_camera_count(model)
+               ? scene_camera_at(model, (int32_t)number - 1)
+               : NULL;
+}
+
+static int refuse_camera(const view_settings *s, const scene *model, report *r)
+{
+    char names[400] = "";
+    size_t used = 0;
+
+    for (int32_t i = 0; i < scene_camera_count(model) && used < sizeof names; i++)
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s",
+                                 i > 0 ? ", " : "", scene_camera_at(model, i)->name);
+    if (names[0])
+        report_error(r, "%s: has no camera \"%s\"; choose one of %s", s->model, s->camera,
+                     names);
+    else
+        report_error(r, "%s: has no camera; give --eye and --target", s->model);
+    return EXIT_FAILED;
+}
+
+static int choose_camera(const view_settings *s, const scene *model, scene_view *v,
+                         report *r)
+{
+    const scene_camera *camera = find_camera(model, s->camera);
+
+    if (!camera)
+        return refuse_camera(s, model, r);
+    *v = camera->view;
+    /* What was told of is the width that is seen. */
+    if (camera->hfov_rad > 0.0f)
+        v->vfov_rad = (float)(2.0
+                              * atan(tan(0.5 * (double)camera->hfov_rad)
+                                     * (double)s->size.height / (double)s->size.width));
+    return EXIT_DONE;
+}
+
 /* The framed view, changed where the user says so. An eye alone looks at the scene's
  * centre; a target alone is seen from the framed direction and distance. */
 static int choose_view(const view_settings *s, const scene *model, scene_view *v,
@@ -190,6 +247,8 @@ static int choose_view(const view_settings *s, const scene *model, scene_view *v
     double lower[3], upper[3];
 
     scene_frame(model, vfov, (float)s->size.width / (float)s->size.height, v);
+    if (s->camera && choose_camera(s, model, v, r) != EXIT_DONE)
+        return EXIT_FAILED;
     scene_bounds(model, lower, upper);
     for (int i = 0; i < 3; i++) {
         const double offset = v->eye[i] - v->target[i];
@@ -224,8 +283,7 @@ static int choose_view(const view_settings *s, const scene *model, scene_view *v
     return EXIT_DONE;
 }
 
-/* Whether any pixel inside the guard band shows a surface. */
-static bool shows_something(const scene_gbuffer *g)
+bool view_shows_something(const scene_gbuffer *g)
 {
     const crv_gbuffer_desc *d = &g->desc;
 
@@ -293,7 +351,7 @@ int view_render(const view_settings *s, const scene *model, bool texture_frames,
     scene_gbuffer_request request = {
         .width = s->size.width,
         .height = s->size.height,
-        .guard_px = guard_px(s),
+        .guard_px = view_guard_px(s),
         .layers = s->layers.value,
         .layer_kind = (crv_layers)s->layer_kind.value,
         .normals =
@@ -309,7 +367,7 @@ int view_render(const view_settings *s, const scene *model, bool texture_frames,
     tell_view(model, &request.view, r);
     if (scene_render_gbuffer(model, &request, out, &r->logger) != 0)
         return EXIT_FAILED;
-    if (!shows_something(out))
+    if (!view_shows_something(out))
         report_warning(
             r,
             "%s: nothing of it is in view; change --eye, --target or --vfov, or "

@@ -15,6 +15,7 @@ typedef struct view_settings {
     arg_size size;
     arg_vector eye, target, up;
     arg_number vfov_deg, ortho;
+    const char *camera; /* of the model, by name or number */
     arg_int layers, layer_kind, normals_from, guard_px;
     arg_number import_timeout_s;
 } view_settings;
@@ -49,6 +50,12 @@ int view_load(const view_settings *s, scene **out, report *r);
  * wanted. */
 int view_render(const view_settings *s, const scene *model, bool texture_frames,
                 scene_gbuffer *out, report *r);
+
+/* The width of the guard band: as given, or a tenth of the height. */
+int32_t view_guard_px(const view_settings *s);
+
+/* Whether any pixel inside the guard band shows a surface. */
+bool view_shows_something(const scene_gbuffer *g);
 
 /* sin^2 of the angle between the view's direction and its up; NAN where the view is a
  * point. */

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -38,6 +39,16 @@ static const arg render_rows[] = {
      .type = ARG_TEXT,
      .offset = offsetof(render_settings, unlit),
      .help = "also write the lit scene without ambient occlusion"},
+    {.name = "--aa",
+     .value = "N",
+     .type = ARG_INT,
+     .min = 1,
+     .max = 16,
+     .initial = "1",
+     .offset = offsetof(render_settings, aa),
+     .help =
+         "antialiased: NxN samples for each pixel, each a pixel of a picture that is N "
+         "times larger; their mean, background being open. 2 to 4 are enough"},
     {.name = "--bits",
      .value = "N",
      .type = ARG_CHOICE,
@@ -99,6 +110,23 @@ static int check(const render_settings *s, report *r)
     return result;
 }
 
+/* A picture that shows nothing but white is told of: of a surface in view no pixel is as
+ * dark as one step of an 8-bit picture. What shows no surface was told of before. */
+static void check_open(const render_settings *s, const scene_gbuffer *g,
+                       const io_image *ao, double radius, report *r)
+{
+    const size_t count = (size_t)ao->width * (size_t)ao->height;
+
+    for (size_t i = 0; i < count; i++)
+        if (!((double)ao->channels[0].data[i] > 1.0 - 0.5 / 255.0))
+            return;
+    if (view_shows_something(g))
+        report_warning(r,
+                       "%s: nothing in view is occluded within the radius %g; give a "
+                       "larger --radius if something should be",
+                       s->view.model, radius);
+}
+
 static int estimate(const render_settings *s, const scene *model, const scene_gbuffer *g,
                     const io_image *map, io_image *ao, report *r)
 {
@@ -122,13 +150,52 @@ static int estimate(const render_settings *s, const scene *model, const scene_gb
         result = estimate_plan(&e, &options, r);
     if (result == EXIT_DONE)
         result = estimate_run(&e, ao, r);
+    if (result == EXIT_DONE)
+        check_open(s, g, ao, (double)options.radius, r);
     estimate_close(&e);
     return result;
+}
+
+/* The mean of each n x n pixels. */
+static int reduce(const io_image *image, int32_t n, io_image *out, report *r)
+{
+    const char *names[4] = {NULL};
+    const int32_t width = image->width / n, height = image->height / n;
+
+    for (int32_t c = 0; c < image->channel_count; c++)
+        names[c] = image->channels[c].name;
+    if (io_image_init(out, width, height, names, image->channel_count, &r->logger) != 0)
+        return EXIT_FAILED;
+    for (int32_t c = 0; c < image->channel_count; c++) {
+        const float *from = image->channels[c].data;
+        float *to = io_image_find(out, names[c])->data;
+        for (int32_t y = 0; y < height; y++) {
+            for (int32_t x = 0; x < width; x++) {
+                double sum = 0.0;
+                for (int32_t i = 0; i < n * n; i++)
+                    sum += (double)from[(size_t)(y * n + i / n) * (size_t)image->width
+                                        + (size_t)(x * n + i % n)];
+                to[(size_t)y * (size_t)width + (size_t)x] = (float)(sum / (n * n));
+            }
+        }
+    }
+    return EXIT_DONE;
 }
 
 static int write_image(const render_settings *s, const char *path, const io_image *image,
                        bool srgb, report *r)
 {
+    io_image small = {0};
+
+    if (s->aa.value > 1) {
+        int result = reduce(image, s->aa.value, &small, r);
+        if (result == EXIT_DONE) {
+            const render_settings single = {.half = s->half, .bits = s->bits};
+            result = write_image(&single, path, &small, srgb, r);
+        }
+        io_image_free(&small);
+        return result;
+    }
     io_write_options options = {
         .half = s->half, .bits = s->bits.value == 0 ? 8 : 16, .srgb = srgb};
 
@@ -207,9 +274,26 @@ static void free_work(work *w)
     scene_free(w->model);
 }
 
+/* The settings of the larger picture that antialiasing takes the mean of. */
+static render_settings enlarged(const render_settings *given)
+{
+    render_settings s = *given;
+    const int32_t n = s.aa.value;
+    crv_options *o = &s.view.common.options;
+
+    if (n == 1)
+        return s;
+    s.view.guard_px = (arg_int){.given = true, .value = n * view_guard_px(&given->view)};
+    s.view.size.width *= n;
+    s.view.size.height *= n;
+    o->max_radius_px = fminf(o->max_radius_px * (float)n, (float)CRV_MAX_SIZE);
+    o->band_px = fminf(o->band_px * (float)n, (float)CRV_MAX_SIZE);
+    return s;
+}
+
 static int run(const void *settings, report *r)
 {
-    const render_settings *s = settings;
+    const render_settings large = enlarged(settings), *s = &large;
     bool needs_ao = s->shade.value != SHADE_LIT_NO_AO || s->lit;
     work w = {0};
     stage lit;

@@ -13,7 +13,7 @@ typedef struct render_settings {
     view_settings view;
     arg_int shade;
     const char *lit, *unlit;
-    arg_int bits;
+    arg_int bits, aa;
     bool half;
     const char *height_map;
     arg_number height_scale;
