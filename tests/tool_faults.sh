@@ -65,22 +65,33 @@ bad 2 'two pictures' render $tiny -o new.png --lit link.png
 rm link.png
 
 # Work that takes longer than ten seconds says how long beforehand and ends at a signal
-# within a second, leaving nothing; with no terminal, and one thread of a slow set.
-"$tool" render builtin:courtyard --size 1280x720 --method containment --samples 2000 \
-    --isa scalar --threads 1 -o long.exr >stdout.txt 2>stderr.txt &
-process=$!
-tries=0
-while ! grep -q 'estimation: .* left$' stderr.txt && [ $tries -lt 600 ]; do
-    sleep 0.1
-    tries=$((tries + 1))
-done
-grep -q '^estimation:  *[0-9.]* %, [0-9].* left$' stderr.txt || fail "nothing is told of long work"
-before=$(date +%s%N)
-kill -INT $process 2>/dev/null || kill -TERM $process
-kill -TERM $process 2>/dev/null || true # shells start background work deaf to SIGINT
-code=0
-wait $process || code=$?
-spent=$((($(date +%s%N) - before) / 1000000))
-[ $code -gt 128 ] || fail "exit code $code after a signal"
-[ $spent -lt 1000 ] || fail "$spent ms to end after a signal"
-[ -z "$(find . -name 'long*' -o -name '.?*')" ] || fail "a file is left after a signal"
+# within a second; with no terminal, one thread, and a slow instruction set.
+# ends_soon LINE LEFT WORDS...: LINE is told of it, LEFT is what may be left.
+ends_soon() {
+    line=$1
+    left=$2
+    shift 2
+    "$tool" "$@" --threads 1 -o long.exr >stdout.txt 2>stderr.txt &
+    process=$!
+    tries=0
+    while ! grep -q "$line" stderr.txt && [ $tries -lt 600 ]; do
+        sleep 0.1
+        tries=$((tries + 1))
+    done
+    grep -q "$line" stderr.txt || fail "nothing is told of long work: $(cat stderr.txt)"
+    before=$(date +%s%N)
+    kill -TERM $process || fail "it was done before a signal"
+    code=0
+    wait $process || code=$?
+    spent=$((($(date +%s%N) - before) / 1000000))
+    [ $code -gt 128 ] || fail "exit code $code after a signal"
+    [ $spent -lt 1000 ] || fail "$spent ms to end after a signal"
+    found=$(find . -name 'long*' -o -name '.?*')
+    [ "$found" = "$left" ] || fail "left after a signal: $found"
+}
+ends_soon '^estimation:  *[0-9.]* %, [0-9].* left$' '' render builtin:courtyard --size 1280x720 \
+    --method containment --samples 2000 --isa scalar
+ends_soon '^reference:  *[0-9.]* %, [0-9].* left$' ./long.exr.checkpoint reference \
+    builtin:courtyard --size 640x360 --rays 65536
+rm long.exr.checkpoint
+ends_soon '^G-buffer: about [0-9]* s$' '' gbuffer builtin:courtyard --size 6000x4000 --layers 4

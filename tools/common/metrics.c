@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "quantile.h"
+
 enum { WINDOW = 11 };
 
 /* What a window is summed up in: weighted means, and how many pixels it must not hold. */
@@ -19,24 +21,6 @@ int64_t metrics_count_not_finite(const float *a, const uint8_t *mask, int32_t wi
     for (size_t i = 0; i < count; i++)
         found += (!mask || mask[i]) && !isfinite(a[i]);
     return found;
-}
-
-static int by_value(const void *x, const void *y)
-{
-    const double *a = x, *b = y;
-
-    return (*a > *b) - (*a < *b);
-}
-
-/* Of the n values in order the first is at 0, the last at 1, the others evenly between.
- */
-static double quantile(const double *sorted, size_t n, double q)
-{
-    const double at = q * (double)(n - 1);
-    const size_t i = (size_t)at;
-    const double next = i + 1 < n ? sorted[i + 1] : sorted[i];
-
-    return sorted[i] + (at - (double)i) * (next - sorted[i]);
 }
 
 static bool compare_signed(const float *a, const float *b, const uint8_t *mask,
@@ -54,7 +38,7 @@ static bool compare_signed(const float *a, const float *b, const uint8_t *mask,
         errors[n] = (double)a[i] - (double)b[i];
         sum += errors[n++];
     }
-    qsort(errors, n, sizeof *errors, by_value);
+    quantile_sort(errors, n);
     out->bias = sum / (double)n;
     out->error_q01 = n > 0 ? quantile(errors, n, 0.01) : NAN;
     out->error_q99 = n > 0 ? quantile(errors, n, 0.99) : NAN;

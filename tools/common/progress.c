@@ -33,7 +33,6 @@ progress progress_begin(report *r, const char *name, int64_t from, int64_t total
     return (progress){.r = r,
                       .name = name,
                       .start = report_seconds(),
-                      .told = report_seconds(),
                       .from = from,
                       .total = total,
                       .terminal = isatty(STDERR_FILENO) != 0};
@@ -58,12 +57,15 @@ static void show(progress *p, int64_t done, double now)
 
 void progress_show(progress *p, int64_t done)
 {
-    const double now = report_seconds();
+    const double now = report_seconds(), spent = now - p->start;
+    const double whole = spent / (double)(done - p->from) * (double)(p->total - p->from);
+    const double wait = p->terminal ? FRESH_SECONDS : LINE_SECONDS;
 
-    if (p->r->quiet || (!p->terminal && p->detail && !p->r->verbose) || done == p->from
-        || now - p->told < (p->terminal ? FRESH_SECONDS : LINE_SECONDS))
+    if (p->r->quiet || done == p->from || done == p->total)
         return;
-    show(p, done, now);
+    if (p->told > 0.0 ? now - p->told >= wait
+                      : spent > SOON_SECONDS && whole > LONG_SECONDS)
+        show(p, done, now);
 }
 
 void progress_end(progress *p)
@@ -82,7 +84,6 @@ static void run_loop(void *user, uint32_t count, void (*task)(void *data, uint32
     const int threads = r->threads > 0 ? r->threads : omp_get_max_threads();
     progress p = progress_begin(r, "estimation", 0, (int64_t)count);
     uint32_t done = 0;
-    bool told = false;
 
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
     for (uint32_t i = 0; i < count; i++) {
@@ -90,16 +91,8 @@ static void run_loop(void *user, uint32_t count, void (*task)(void *data, uint32
         task(data, i);
 #pragma omp atomic capture
         now_done = ++done;
-        if (omp_get_thread_num() != 0)
-            continue;
-        const double now = report_seconds(), spent = now - p.start;
-        if (told)
+        if (omp_get_thread_num() == 0)
             progress_show(&p, now_done);
-        else if (!r->quiet && spent > SOON_SECONDS && now_done < count
-                 && spent / now_done * count > LONG_SECONDS) {
-            show(&p, now_done, now);
-            told = true;
-        }
     }
     progress_end(&p);
 }

@@ -5,15 +5,15 @@
 
 #include "report.h"
 
-/* On a terminal a line that is written over; elsewhere a line now and then. */
+/* Work that will take more than ten seconds is told of as soon as that is known, then now
+ * and then: on a terminal in a line that is written over. */
 typedef struct progress {
     report *r;
     const char *name;   /* "reference" */
-    double start, told; /* seconds */
+    double start, told; /* seconds; told 0: not yet */
     int64_t from, total;
     bool terminal;
-    bool detail; /* without a terminal: with --verbose only */
-    int width;   /* of the line on the terminal */
+    int width; /* of the line on the terminal */
 } progress;
 
 /* from: what was done before. */

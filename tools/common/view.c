@@ -11,6 +11,12 @@
 static const double degree = 3.14159265358979323846 / 180.0;
 
 /* In the order of crv_layers. */
+/* Pixels times layers from which on ray casting may take longer than LONG_SECONDS; the
+ * trial has 1 / TRIAL_SHARE of each side. */
+#define MANY_SAMPLES 4e6
+#define LONG_SECONDS 10.0
+enum { TRIAL_SHARE = 12 };
+
 static const char *const layer_kinds[] = {"surfaces", "solid", NULL};
 static const char *const normal_kinds[] = {"interpolated", "face", NULL};
 
@@ -345,6 +351,30 @@ static void tell_view(const scene *model, const scene_view *v, report *r)
                       : exact_number(v->vfov_rad, degree, number));
 }
 
+/* Large ones take long, which a small one with as many layers tells beforehand. */
+static void announce(const scene *model, const scene_gbuffer_request *request, report *r)
+{
+    const double pixels = (double)(request->width + 2 * request->guard_px)
+                          * (double)(request->height + 2 * request->guard_px);
+    const crv_logger errors = report_errors_only(r);
+    scene_gbuffer_request trial = *request;
+    scene_gbuffer cast = {0};
+
+    if (pixels * request->layers < MANY_SAMPLES)
+        return;
+    trial.width = request->width / TRIAL_SHARE + 1;
+    trial.height = request->height / TRIAL_SHARE + 1;
+    trial.guard_px = request->guard_px / TRIAL_SHARE;
+    const double start = report_seconds();
+    if (scene_render_gbuffer(model, &trial, &cast, &errors) == 0) {
+        const double cast_pixels = (double)cast.desc.width * (double)cast.desc.height;
+        const double seconds = (report_seconds() - start) * pixels / cast_pixels;
+        if (seconds > LONG_SECONDS)
+            report_info(r, "G-buffer: about %.0f s", seconds);
+    }
+    scene_gbuffer_free(&cast);
+}
+
 int view_render(const view_settings *s, const scene *model, bool texture_frames,
                 scene_gbuffer *out, report *r)
 {
@@ -365,6 +395,7 @@ int view_render(const view_settings *s, const scene *model, bool texture_frames,
     if (result != EXIT_DONE)
         return result;
     tell_view(model, &request.view, r);
+    announce(model, &request, r);
     if (scene_render_gbuffer(model, &request, out, &r->logger) != 0)
         return EXIT_FAILED;
     if (!view_shows_something(out))

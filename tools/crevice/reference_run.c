@@ -80,7 +80,6 @@ static void compute(reference_run *run, int32_t threads, report *r)
 {
     progress p = progress_begin(r, "reference", reference_done(run->work),
                                 reference_total(run->work));
-    p.detail = true;
     double last_save = p.start;
     int64_t batch = FIRST_BATCH;
 

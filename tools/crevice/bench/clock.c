@@ -4,7 +4,6 @@
 #include "bench/clock.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
@@ -14,6 +13,7 @@
 #include <sys/syscall.h>
 #endif
 
+#include "common/quantile.h"
 #include "common/report.h"
 
 enum { RUNS_FEW = 3 };
@@ -112,26 +112,10 @@ const char *bench_clock_source(const bench_clock *c)
     return c->counter >= 0 ? "counter" : c->ghz > 0.0 ? "clock" : "none";
 }
 
-static int compare_doubles(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-
-    return (x > y) - (x < y);
-}
-
-/* Of sorted values; between two it is interpolated. */
-static double quantile(const double *sorted, int32_t count, double share)
-{
-    const double at = share * (count - 1);
-    const int32_t below = (int32_t)at, above = below + 1 < count ? below + 1 : below;
-
-    return sorted[below] + (at - below) * (sorted[above] - sorted[below]);
-}
-
 double bench_median(double *values, int32_t count)
 {
-    qsort(values, (size_t)count, sizeof *values, compare_doubles);
-    return quantile(values, count, 0.5);
+    quantile_sort(values, (size_t)count);
+    return quantile(values, (size_t)count, 0.5);
 }
 
 typedef struct sample {
@@ -168,8 +152,8 @@ static void summarise(const bench_clock *c, const sample *samples, int32_t count
     out->ms = bench_median(values, count);
     out->runs = count;
     out->ms_min = values[0];
-    out->ms_q1 = quantile(values, count, 0.25);
-    out->ms_q3 = quantile(values, count, 0.75);
+    out->ms_q1 = quantile(values, (size_t)count, 0.25);
+    out->ms_q3 = quantile(values, (size_t)count, 0.75);
     out->ms_max = values[count - 1];
 }
 
