@@ -171,27 +171,48 @@ void io__exr_close(io__exr *exr)
     exr->channel_count = 0;
 }
 
-/* Reads a matrix of floats or doubles. */
-static bool find_matrix(const io__exr *exr, const char *name, float out[16])
+/* Reads a matrix of floats or doubles of one part. */
+static bool read_matrix(const io__exr *exr, int part, const char *name, float out[16])
 {
-    for (int part = 0; part < exr->part_count; part++) {
-        const exr_attribute_t *found = NULL;
-        exr_attr_m44f_t single;
-        exr_attr_m44d_t twice;
-        if (exr_get_attribute_by_name(exr->context, part, name, &found) != EXR_ERR_SUCCESS
-            || !found)
-            continue;
-        if (found->type == EXR_ATTR_M44F
-            && exr_attr_get_m44f(exr->context, part, name, &single) == EXR_ERR_SUCCESS)
-            memcpy(out, single.m, sizeof single.m);
-        else if (found->type == EXR_ATTR_M44D
-                 && exr_attr_get_m44d(exr->context, part, name, &twice)
-                        == EXR_ERR_SUCCESS)
-            for (int i = 0; i < 16; i++)
-                out[i] = (float)twice.m[i];
-        else
-            continue;
+    const exr_attribute_t *found = NULL;
+    exr_attr_m44f_t single;
+    exr_attr_m44d_t twice;
+    if (exr_get_attribute_by_name(exr->context, part, name, &found) != EXR_ERR_SUCCESS
+        || !found)
+        return false;
+    if (found->type == EXR_ATTR_M44F
+        && exr_attr_get_m44f(exr->context, part, name, &single) == EXR_ERR_SUCCESS)
+        memcpy(out, single.m, sizeof single.m);
+    else if (found->type == EXR_ATTR_M44D
+             && exr_attr_get_m44d(exr->context, part, name, &twice) == EXR_ERR_SUCCESS)
+        for (int i = 0; i < 16; i++)
+            out[i] = (float)twice.m[i];
+    else
+        return false;
+    return true;
+}
+
+/* The eye that a part belongs to; "" if it does not say. */
+static const char *view_of(const io__exr *exr, int part)
+{
+    int32_t length = 0;
+    const char *view = NULL;
+    if (exr_attr_get_string(exr->context, part, "view", &length, &view) != EXR_ERR_SUCCESS
+        || !view)
+        return "";
+    return view;
+}
+
+/* A part's own matrix, or that of another part of the same eye. */
+static bool find_matrix(const io__exr *exr, int own, const char *name, float out[16])
+{
+    if (read_matrix(exr, own, name, out))
         return true;
+    for (int part = 0; part < exr->part_count; part++) {
+        const char *view = view_of(exr, part);
+        if ((!view[0] || !strcmp(view, view_of(exr, own)))
+            && read_matrix(exr, part, name, out))
+            return true;
     }
     return false;
 }
@@ -231,9 +252,9 @@ int io__exr_metadata(const io__exr *exr, int part, io_image *image)
     image->display_height = (int32_t)display_height;
     image->pixel_aspect = aspect;
     image->camera.has_world_to_camera =
-        find_matrix(exr, "worldToCamera", image->camera.world_to_camera);
+        find_matrix(exr, part, "worldToCamera", image->camera.world_to_camera);
     image->camera.has_world_to_ndc =
-        find_matrix(exr, "worldToNDC", image->camera.world_to_ndc);
+        find_matrix(exr, part, "worldToNDC", image->camera.world_to_ndc);
     return 0;
 }
 

@@ -35,7 +35,7 @@ static int64_t write_at(exr_const_context_t context, void *user, const void *buf
 static exr_result_t set_windows(const writer *w)
 {
     const io_image *image = w->image;
-    crv_camera camera;
+    io__ndc_camera found[2];
     exr_attr_v2f_t centre = {.x = 0.0f, .y = 0.0f};
     float width = 1.0f;
     const exr_attr_box2i_t display = {
@@ -43,8 +43,9 @@ static exr_result_t set_windows(const writer *w)
     const exr_attr_box2i_t data = {.min = {.x = image->data_x, .y = image->data_y},
                                    .max = {.x = image->data_x + image->width - 1,
                                            .y = image->data_y + image->height - 1}};
-    if (!io__camera_from_ndc(&image->camera, image->display_width, image->display_height,
-                             &camera)) {
+    if (io__cameras_from_ndc(&image->camera, image->display_width, image->display_height,
+                             found)) {
+        const crv_camera camera = found[0].camera;
         width = (float)image->display_width / camera.fx_px;
         centre.x = (0.5f * (float)image->display_width - camera.cx_px) / camera.fx_px;
         centre.y = (camera.cy_px - 0.5f * (float)image->display_height) / camera.fy_px;

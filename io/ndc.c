@@ -70,17 +70,17 @@ int io__rotation_from_world_to_camera(const float world_to_camera[16], float rot
     return 0;
 }
 
-/* x = scale * right + centre, likewise y: what a projection comes to once the direction
- * of view is known. */
+/* x = scale_x right + centre_x, likewise y: a projection once the direction of view is
+ * known. */
 typedef struct ndc_mapping {
     double scale_x, scale_y, centre_x, centre_y;
-    bool y_up, signed_range; /* -1 to 1 */
+    bool y_up;
 } ndc_mapping;
 
-static int finish(const ndc_mapping *n, int32_t width, int32_t height, crv_camera *camera)
+static int finish(const ndc_mapping *n, bool is_signed, int32_t width, int32_t height,
+                  crv_camera *camera)
 {
-    const double half = n->signed_range ? 0.5 : 1.0;
-    const double shift = n->signed_range ? 0.5 : 0.0;
+    const double half = is_signed ? 0.5 : 1.0, shift = is_signed ? 0.5 : 0.0;
     const double centre_x = n->centre_x * half + shift;
     double centre_y = n->centre_y * half + shift;
     if (n->y_up)
@@ -96,14 +96,55 @@ static int finish(const ndc_mapping *n, int32_t width, int32_t height, crv_camer
                : -1;
 }
 
-static int perspective(const float m[16], int32_t width, int32_t height,
-                       crv_camera *camera)
+/* The range that the mapping has in all likelihood. OpenEXR's own is 0 to 1 with y down;
+ * a matrix with y up is one of clip coordinates, -1 to 1, unless its centre lies exactly
+ * in the middle of the other range. */
+static bool looks_signed(const ndc_mapping *n, bool has_centre)
 {
+    const bool in_middle =
+        has_centre && fabs(n->centre_x - 0.5) < 1e-4 && fabs(n->centre_y - 0.5) < 1e-4;
+    return n->y_up && !in_middle;
+}
+
+/* What worldToCamera says is up; 0 if it says nothing. Its y is up in every convention,
+ * where the third axis may point either way. */
+static bool find_up(const io_camera_metadata *metadata, vec3 *up)
+{
+    double length;
+    return metadata->has_world_to_camera
+           && split(column(metadata->world_to_camera, 1), &length, up);
+}
+
+/* Both readings of a mapping, the likelier first. */
+static int finish_both(const ndc_mapping *n, bool has_centre, crv_camera *camera,
+                       int32_t width, int32_t height, vec3 rows[3], io__ndc_camera out[2])
+{
+    const bool first = looks_signed(n, has_centre);
+    int count = 0;
+    for (int i = 0; i < 2; i++) {
+        io__ndc_camera *made = &out[count];
+        made->is_signed = i == 0 ? first : !first;
+        if (finish(n, made->is_signed, width, height, camera))
+            continue;
+        made->camera = *camera;
+        const double m[9] = {rows[0].x, rows[0].y, rows[0].z, rows[1].x, rows[1].y,
+                             rows[1].z, rows[2].x, rows[2].y, rows[2].z};
+        memcpy(made->to_view, m, sizeof made->to_view);
+        count++;
+    }
+    return count;
+}
+
+static int perspective(const io_camera_metadata *metadata, int32_t width, int32_t height,
+                       io__ndc_camera out[2])
+{
+    const float *m = metadata->world_to_ndc;
+    crv_camera camera = {.projection = CRV_PERSPECTIVE};
     ndc_mapping n;
     double length;
-    vec3 forward, right, image_y;
+    vec3 forward, right, image_y, known;
     if (!split(column(m, 3), &length, &forward))
-        return -1;
+        return 0;
     const vec3 x = scaled(column(m, 0), 1.0 / length);
     const vec3 y = scaled(column(m, 1), 1.0 / length);
     n.centre_x = dot(x, forward);
@@ -111,61 +152,68 @@ static int perspective(const float m[16], int32_t width, int32_t height,
     if (!split(minus(x, scaled(forward, n.centre_x)), &n.scale_x, &right)
         || !split(minus(y, scaled(forward, n.centre_y)), &n.scale_y, &image_y)
         || fabs(dot(right, image_y)) > 1e-3)
-        return -1;
-    const vec3 up = cross(right, forward);
+        return 0;
+    /* Of a right-handed world, unless worldToCamera knows better. */
+    vec3 up = cross(right, forward);
+    if (find_up(metadata, &known) && dot(known, up) < -0.9)
+        up = scaled(up, -1.0);
     n.y_up = dot(image_y, up) > 0.0;
-    /* The picture's centre has 0.5 in a range from 0 to 1, and 0 in one from -1 to 1. */
-    n.signed_range = fabs(n.centre_x) < 0.25 && fabs(n.centre_y) < 0.25;
-    camera->projection = CRV_PERSPECTIVE;
-    store_rotation(camera->world_to_view, right, up, scaled(forward, -1.0));
-    return finish(&n, width, height, camera);
+    vec3 rows[3] = {right, up, scaled(forward, -1.0)};
+    return finish_both(&n, true, &camera, width, height, rows, out);
 }
 
 static int orthographic(const io_camera_metadata *metadata, int32_t width, int32_t height,
-                        crv_camera *camera)
+                        io__ndc_camera out[2])
 {
     const float *m = metadata->world_to_ndc;
+    crv_camera camera = {.projection = CRV_ORTHOGRAPHIC};
     const double w = (double)m[15];
-    float rotation[9];
-    vec3 right, image_y;
-    /* Positions may be shifted as a whole without changing the result, so that the
-     * principal point is free. */
-    ndc_mapping n = {.centre_x = 0.5, .centre_y = 0.5};
+    double length;
+    vec3 right, image_y, forward, known;
+    ndc_mapping n = {.scale_x = 0.0};
     if (!isfinite(w) || w == 0.0
         || !split(scaled(column(m, 0), 1.0 / w), &n.scale_x, &right)
         || !split(scaled(column(m, 1), 1.0 / w), &n.scale_y, &image_y)
         || fabs(dot(right, image_y)) > 1e-3)
-        return -1;
-    if (metadata->has_world_to_camera
-        && !io__rotation_from_world_to_camera(metadata->world_to_camera, rotation)) {
-        const vec3 known = {(double)rotation[3], (double)rotation[4],
-                            (double)rotation[5]};
-        n.y_up = dot(known, image_y) > 0.0;
+        return 0;
+    /* z of NDC grows with the distance, so that it tells where the view goes. */
+    vec3 up = scaled(image_y, -1.0);
+    if (find_up(metadata, &known))
+        up = dot(known, image_y) > 0.0 ? image_y : up;
+    else if (split(scaled(column(m, 2), 1.0 / w), &length, &forward))
+        up = dot(cross(right, forward), image_y) > 0.0 ? image_y : up;
+    n.y_up = dot(image_y, up) > 0.0;
+    vec3 rows[3] = {right, up, cross(right, up)};
+    const int count = finish_both(&n, false, &camera, width, height, rows, out);
+    /* Positions may be shifted as a whole without changing the result, so that the
+     * principal point is free. */
+    for (int i = 0; i < count; i++) {
+        out[i].camera.cx_px = 0.5f * (float)width;
+        out[i].camera.cy_px = 0.5f * (float)height;
     }
-    const vec3 up = n.y_up ? image_y : scaled(image_y, -1.0);
-    camera->projection = CRV_ORTHOGRAPHIC;
-    store_rotation(camera->world_to_view, right, up, cross(right, up));
-    return finish(&n, width, height, camera);
+    return count;
 }
 
-int io__camera_from_ndc(const io_camera_metadata *metadata, int32_t display_width,
-                        int32_t display_height, crv_camera *camera)
+bool io__is_identity(const float m[16])
+{
+    for (int i = 0; i < 16; i++)
+        if (fabsf(m[i] - (i % 5 == 0 ? 1.0f : 0.0f)) > 1e-6f)
+            return false;
+    return true;
+}
+
+int io__cameras_from_ndc(const io_camera_metadata *metadata, int32_t display_width,
+                         int32_t display_height, io__ndc_camera out[2])
 {
     const float *m = metadata->world_to_ndc;
-    crv_camera made;
-    memset(&made, 0, sizeof made);
-    if (!metadata->has_world_to_ndc)
-        return -1;
+    if (!metadata->has_world_to_ndc || io__is_identity(m))
+        return 0;
     for (int i = 0; i < 16; i++)
         if (!isfinite(m[i]))
-            return -1;
+            return 0;
     const vec3 w = column(m, 3);
     const vec3 x = column(m, 0);
     const bool parallel = dot(w, w) <= 1e-12 * dot(x, x);
-    const int result = parallel
-                           ? orthographic(metadata, display_width, display_height, &made)
-                           : perspective(m, display_width, display_height, &made);
-    if (!result)
-        *camera = made;
-    return result;
+    return parallel ? orthographic(metadata, display_width, display_height, out)
+                    : perspective(metadata, display_width, display_height, out);
 }

@@ -271,13 +271,13 @@ static void declare_part(exr_context_t context, const support_part *part, int p,
     }
 }
 
-static void set_matrix(exr_context_t context, const char *name, const float *m)
+static void set_matrix(exr_context_t context, int part, const char *name, const float *m)
 {
     exr_attr_m44f_t matrix;
     if (!m)
         return;
     memcpy(matrix.m, m, sizeof matrix.m);
-    ok(exr_attr_set_m44f(context, 0, name, &matrix));
+    ok(exr_attr_set_m44f(context, part, name, &matrix));
 }
 
 void support_make_exr(const char *path, const support_part *parts, int count,
@@ -290,8 +290,10 @@ void support_make_exr(const char *path, const support_part *parts, int count,
     ok(exr_start_write(&context, path, EXR_WRITE_FILE_DIRECTLY, NULL));
     for (int p = 0; p < count; p++)
         declare_part(context, &parts[p], p, display ? display : own);
-    set_matrix(context, "worldToCamera", world_to_camera);
-    set_matrix(context, "worldToNDC", world_to_ndc);
+    set_matrix(context, 0, "worldToCamera", world_to_camera);
+    set_matrix(context, 0, "worldToNDC", world_to_ndc);
+    for (int p = 0; p < count; p++)
+        set_matrix(context, p, "worldToNDC", parts[p].world_to_ndc);
     ok(exr_write_header(context));
     for (int p = 0; p < count; p++) {
         if (parts[p].storage == EXR_STORAGE_TILED)

@@ -82,9 +82,14 @@ pfm shot.0007.pfm 3 2 1 1 1 1 1 1
 good ao "shot.####.pfm" --frames 3-7x4 --vfov 90 -o "mix.####.exr"
 grep -q 'warning: shot.0007.pfm: is 3x2, the first frame 2x2' stderr.txt ||
     fail "another size is not told"
+pfm zero.pfm 2 2 0 0 0 0
+good ao zero.pfm --vfov 60 -o zero.exr
+grep -q 'warning: zero.pfm: shows nothing' stderr.txt || fail "no depth is not told"
+
+# z of view space is negative; it means the same.
 pfm negative.pfm 2 2 -1 -1 -1 -1
 good ao negative.pfm --vfov 60 -o negative.exr
-grep -q 'warning: negative.pfm: shows nothing' stderr.txt || fail "no depth is not told"
+grep -q '^negative.pfm: depth is negative everywhere' stderr.txt || fail "negative depth"
 
 # All background is all white: nothing but 255 in an 8-bit grey picture.
 good ao shot.0001.pfm --vfov 60 -o white.pfm

@@ -1,16 +1,26 @@
 /* SPDX-License-Identifier: MIT */
-/* depth.h: a file's depth to planar depth. */
+/* depth.h: what the numbers of a depth channel tell. */
 #ifndef CREVICE_IO_PASSES_DEPTH_H
 #define CREVICE_IO_PASSES_DEPTH_H
 
 #include "passes.h"
 
-/*
- * Converts the depth of all layers in the frame's own pixels from `format` to planar
- * depth, background INFINITY. The frame's camera and depth views must be set. Returns 0,
- * or -1 after an error line.
- */
-int io__convert_depth(const crv_depth_format *format, io_frame *frame,
-                      const crv_logger *log);
+/* What the numbers of a depth channel look like, before any conversion. */
+typedef struct io__depth_facts {
+    size_t count; /* finite numbers */
+    float smallest, largest;
+    size_t at_largest;  /* how many are exactly the largest */
+    float next_largest; /* the largest but those; -INFINITY if there is none */
+    bool
+        bare_at_largest; /* pixels at the largest have no normal, and there are normals */
+    bool is_half;        /* all have the bits of half floats */
+} io__depth_facts;
+
+/* normals may be NULL. Numbers from `background` on are not looked at. */
+io__depth_facts io__depth_facts_of(const crv_image *depth, const crv_image *normals,
+                                   float background);
+
+/* Whether the largest depth is sky that nobody marked. */
+bool io__largest_is_sky(const io__depth_facts *facts);
 
 #endif

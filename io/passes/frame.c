@@ -4,9 +4,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "camera.h"
 #include "depth.h"
+#include "evidence.h"
+#include "halves.h"
 #include "internal.h"
-#include "ndc.h"
 #include "names.h"
 #include "normals.h"
 
@@ -29,45 +31,6 @@ static int check_request(const char *path, const io_passes_request *request,
         return io__fail(log, path,
                         "both a field of view and an orthographic view height are given; "
                         "give one of them");
-    return 0;
-}
-
-/* The camera of the display window, and whether its rotation is known. */
-static int find_camera(const char *path, const io_image *probed,
-                       const io_passes_request *request, crv_camera *camera,
-                       bool *has_rotation, const crv_logger *log)
-{
-    const int32_t width = probed->display_width, height = probed->display_height;
-    const io_camera_metadata *metadata = &probed->camera;
-    crv_camera described;
-    float rotation[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-    const bool has_camera = !io__camera_from_ndc(metadata, width, height, &described);
-    *has_rotation = has_camera;
-    if (has_camera)
-        memcpy(rotation, described.world_to_view, sizeof rotation);
-    else if (metadata->has_world_to_camera)
-        *has_rotation =
-            !io__rotation_from_world_to_camera(metadata->world_to_camera, rotation);
-    if (metadata->has_world_to_ndc && !has_camera)
-        io__warn(log, path, "its worldToNDC metadata is no projection; it is ignored");
-    if (request->vfov_rad > 0.0f)
-        *camera = crv_camera_perspective(width, height, request->vfov_rad);
-    else if (request->view_height > 0.0f)
-        *camera = crv_camera_orthographic(width, height, request->view_height);
-    else if (has_camera)
-        *camera = described;
-    else
-        return io__fail(log, path, "does not say which camera made it; %s",
-                        request->remedies.camera
-                            ? request->remedies.camera
-                            : "give its field of view, or the height of an orthographic "
-                              "view");
-    if (request->vfov_rad > 0.0f || request->view_height > 0.0f)
-        camera->fx_px /= probed->pixel_aspect;
-    else
-        io__info(log, path, "camera: from worldToNDC metadata, %s",
-                 camera->projection == CRV_PERSPECTIVE ? "perspective" : "orthographic");
-    memcpy(camera->world_to_view, rotation, sizeof rotation);
     return 0;
 }
 
@@ -166,27 +129,121 @@ static int set_desc(const char *path, const io_image *image, int32_t layers,
     return 0;
 }
 
-static crv_depth_format settle_format(const io_passes_request *request)
+static bool is_distance(crv_depth_encoding encoding)
+{
+    return encoding == CRV_DEPTH_PLANAR || encoding == CRV_DEPTH_RADIAL;
+}
+
+/* Depth along -z, as view space has it, is positive depth. */
+static void negate_depth(const char *path, io_frame *frame, const crv_logger *log)
+{
+    for (int32_t i = 0; i < frame->desc.layers; i++) {
+        float *data = frame->depth[i].data;
+        for (size_t k = 0; k < (size_t)frame->desc.width * (size_t)frame->desc.height;
+             k++)
+            data[k] = -data[k];
+    }
+    io__info(log, path,
+             "depth is negative everywhere, as z of view space; it is negated");
+}
+
+/* Steps of half floats darken flat surfaces far away. */
+static void smooth_halves(const char *path, const io_frame *frame, const crv_logger *log)
+{
+    for (int32_t i = 0; i < frame->desc.layers; i++)
+        if (io__smooth_halves(&frame->depth[i])) {
+            io__warn(
+                log, path,
+                "depth holds nothing but half floats, and there is no memory to take "
+                "their steps out; write it in 32-bit floats");
+            return;
+        }
+    io__warn(
+        log, path,
+        "depth holds nothing but half floats: their steps are smoothed, detail below "
+        "them is lost; write it in 32-bit floats");
+}
+
+/* Directions do not tell how far the planes are, nor can smoothness tell much. */
+static void tell_of_unit_range(const char *path, const io_passes_request *request,
+                               const io__depth_facts *facts, bool has_normals,
+                               const crv_logger *log)
+{
+    const bool ends_at_1 = facts->largest == 1.0f && facts->at_largest < facts->count;
+    const bool begins_at_0 =
+        facts->smallest == 0.0f && facts->largest < 1.0f && !has_normals;
+    if (request->encoding_given || !is_distance(request->depth_format.encoding)
+        || facts->smallest < -1.0f || !(ends_at_1 || begins_at_0))
+        return;
+    io__warn(log, path,
+             "depth lies between %g and %g: it looks normalised, or like a depth buffer, "
+             "but is read as distances; %s",
+             (double)facts->smallest, (double)facts->largest,
+             request->remedies.encoding ? request->remedies.encoding
+                                        : "say what its numbers mean");
+}
+
+/* The format that depth is read in, with the background that its numbers tell. */
+static crv_depth_format settle_format(const char *path, const io_passes_request *request,
+                                      io_frame *frame, bool has_normals,
+                                      const crv_logger *log)
 {
     crv_depth_format format = request->depth_format;
-    const bool is_distance =
-        format.encoding == CRV_DEPTH_PLANAR || format.encoding == CRV_DEPTH_RADIAL;
+    const crv_image *normals = has_normals ? &frame->normals : NULL;
     /* 0 is what a zeroed request holds; it would make everything background. */
-    if (is_distance && (isinf(format.background) || format.background == 0.0f))
+    const bool find_background =
+        is_distance(format.encoding)
+        && (isinf(format.background) || format.background == 0.0f);
+    if (find_background)
         format.background = usual_background;
+    const float limit = find_background ? usual_background : INFINITY;
+    io__depth_facts facts = io__depth_facts_of(&frame->depth[0], normals, limit);
+    if (is_distance(format.encoding) && facts.count && facts.largest <= 0.0f
+        && facts.smallest < 0.0f) {
+        negate_depth(path, frame, log);
+        facts = io__depth_facts_of(&frame->depth[0], normals, limit);
+    }
+    tell_of_unit_range(path, request, &facts, has_normals, log);
+    if (facts.is_half && is_distance(format.encoding))
+        smooth_halves(path, frame, log);
+    if (find_background && io__largest_is_sky(&facts)) {
+        format.background = facts.largest;
+        io__info(log, path, "depth from %g on is background: %zu pixels hold just that",
+                 (double)facts.largest, facts.at_largest);
+    }
     return format;
 }
 
-static void tell_of_half(const char *path, const io_image *probed, const char *depth,
-                         const crv_logger *log)
+static int settle(const char *path, const io_passes_request *request,
+                  const io__pass_names *names, io_frame *frame, const crv_logger *log)
 {
-    const io_channel *channel = io_image_find(probed, depth);
-    if (channel && channel->is_half)
-        io__info(
-            log, path,
-            "depth \"%s\" is stored in half floats, whose steps darken flat surfaces "
-            "far away; write it in 32-bit floats",
-            depth);
+    io__camera_guess cameras[IO__MAX_CAMERAS];
+    io__verdict verdict;
+    const bool given_normals = names->normal[0];
+    const int count = io__find_cameras(path, &frame->image, request, cameras, log);
+    if (count < 0)
+        return -1;
+    for (int32_t i = 0; i < names->layers; i++)
+        frame->depth[i] = view_of(&frame->image, i, 1);
+    if (given_normals) {
+        frame->normals = view_of(&frame->image, names->layers, 3);
+        io__decode_normals(path, request, frame, log);
+    }
+    const crv_depth_format format =
+        settle_format(path, request, frame, given_normals, log);
+    if (io__judge(path, request, &format, cameras, count, given_normals, frame, &verdict,
+                  log))
+        return -1;
+    frame->camera = verdict.camera.camera;
+    if (verdict.camera.has_rotation && io__is_rotation(verdict.camera.to_view))
+        for (int i = 0; i < 9; i++)
+            frame->camera.world_to_view[i] = (float)verdict.camera.to_view[i];
+    if (verdict.reading.id)
+        io__apply_reading(&verdict.reading, frame);
+    io__info(log, path, "camera: %s, %s", verdict.camera.text,
+             frame->camera.projection == CRV_PERSPECTIVE ? "perspective"
+                                                         : "orthographic");
+    return 0;
 }
 
 int io_frame_load(const char *path, const io_passes_request *request, io_frame *out,
@@ -195,34 +252,22 @@ int io_frame_load(const char *path, const io_passes_request *request, io_frame *
     io_image probed = {0};
     io__pass_names names;
     io_frame frame;
-    crv_camera camera;
-    bool has_rotation = false;
     memset(&frame, 0, sizeof frame);
     if (check_request(path, request, log) || io_probe(path, &probed, log))
         return -1;
-    if (io__choose_passes(path, &probed, request, &names, log)
-        || find_camera(path, &probed, request, &camera, &has_rotation, log)
-        || read_passes(path, &names, &frame.image, log)
-        || set_desc(path, &frame.image, names.layers, &frame.desc, log)) {
-        io_image_free(&probed);
-        io_frame_free(&frame);
-        return -1;
+    int result = io__choose_passes(path, &probed, request, &names, log);
+    if (!result)
+        result = read_passes(path, &names, &frame.image, log);
+    if (!result)
+        result = set_desc(path, &frame.image, names.layers, &frame.desc, log);
+    if (!result) {
+        frame.desc.layer_kind = names.layer_kind;
+        result = settle(path, request, &names, &frame, log);
     }
-    tell_of_half(path, &probed, names.depth[0], log);
     io_image_free(&probed);
-    frame.desc.layer_kind = names.layer_kind;
-    const bool given_normals = names.normal[0] != NULL;
-    frame.camera = crv_camera_crop(&camera, frame.image.data_x, frame.image.data_y);
-    for (int32_t i = 0; i < names.layers; i++)
-        frame.depth[i] = view_of(&frame.image, i, 1);
-    const crv_depth_format format = settle_format(request);
-    if (io__convert_depth(&format, &frame, log)) {
+    if (result) {
         io_frame_free(&frame);
         return -1;
-    }
-    if (given_normals) {
-        frame.normals = view_of(&frame.image, names.layers, 3);
-        io__settle_normals(path, request->normal_space, has_rotation, &frame, log);
     }
     *out = frame;
     return 0;

@@ -25,17 +25,23 @@ void io__load_normal(const crv_image *image, int32_t x, int32_t y, float n[3])
         n[c] = *crv_image_at(image, x, y, c);
 }
 
-int32_t io__sampling_step(const io_frame *frame)
+int32_t io__sampling_step(const crv_image *image)
 {
-    const double pixels = (double)frame->desc.width * (double)frame->desc.height;
+    const double pixels = (double)image->width * (double)image->height;
     const double step = ceil(sqrt(pixels / LOOKED_AT));
     return step > 1.0 ? (int32_t)step : 1;
 }
 
-static void position(const io_frame *frame, int32_t x, int32_t y, double p[3])
+/* Planar depth and its camera. */
+typedef struct surface {
+    const crv_image *depth;
+    const crv_camera *camera;
+} surface;
+
+static void position(const surface *s, int32_t x, int32_t y, double p[3])
 {
-    const crv_camera *camera = &frame->camera;
-    const double d = (double)*crv_image_at(&frame->depth[0], x, y, 0);
+    const crv_camera *camera = s->camera;
+    const double d = (double)*crv_image_at(s->depth, x, y, 0);
     const double scale = camera->projection == CRV_PERSPECTIVE ? d : 1.0;
     p[0] = (x + 0.5 - (double)camera->cx_px) / (double)camera->fx_px * scale;
     p[1] = -(y + 0.5 - (double)camera->cy_px) / (double)camera->fy_px * scale;
@@ -44,15 +50,15 @@ static void position(const io_frame *frame, int32_t x, int32_t y, double p[3])
 
 /* The normal that depth implies, by central differences: one-sided ones, as an estimator
  * takes them at edges, would belong to a point half a pixel away and bias the fit. */
-static bool implied_normal(const io_frame *frame, int32_t x, int32_t y, float n[3])
+static bool implied_normal(const surface *s, int32_t x, int32_t y, float n[3])
 {
     double left[3], right[3], above[3], below[3], normal[3];
-    if (x < 1 || y < 1 || x >= frame->desc.width - 1 || y >= frame->desc.height - 1)
+    if (x < 1 || y < 1 || x >= s->depth->width - 1 || y >= s->depth->height - 1)
         return false;
-    position(frame, x - 1, y, left);
-    position(frame, x + 1, y, right);
-    position(frame, x, y - 1, above);
-    position(frame, x, y + 1, below);
+    position(s, x - 1, y, left);
+    position(s, x + 1, y, right);
+    position(s, x, y - 1, above);
+    position(s, x, y + 1, below);
     for (int c = 0; c < 3; c++) {
         right[c] -= left[c];
         above[c] -= below[c];
@@ -69,39 +75,42 @@ static bool implied_normal(const io_frame *frame, int32_t x, int32_t y, float n[
     return true;
 }
 
+static double cosine_of(const float a[3], const float b[3])
+{
+    return (double)a[0] * (double)b[0] + (double)a[1] * (double)b[1]
+           + (double)a[2] * (double)b[2];
+}
+
 /* Depth says little about the normal at edges and in foliage: there, neighbours differ.
  * Two pixels away, because direct neighbours are made from the same differences. */
-static bool smooth_normal(const io_frame *frame, int32_t x, int32_t y, double cosine,
+static bool smooth_normal(const surface *s, int32_t x, int32_t y, double cosine,
                           float n[3])
 {
     static const int32_t offsets[4][2] = {{-2, 0}, {2, 0}, {0, -2}, {0, 2}};
-    if (!implied_normal(frame, x, y, n))
+    if (!implied_normal(s, x, y, n))
         return false;
     for (int i = 0; i < 4; i++) {
         float other[3];
-        if (!implied_normal(frame, x + offsets[i][0], y + offsets[i][1], other))
-            return false;
-        double dot = 0.0;
-        for (int c = 0; c < 3; c++)
-            dot += (double)n[c] * (double)other[c];
-        if (!(dot > cosine))
+        if (!implied_normal(s, x + offsets[i][0], y + offsets[i][1], other)
+            || !(cosine_of(n, other) > cosine))
             return false;
     }
     return true;
 }
 
-static void collect(const io_frame *frame, double cosine, io__pair_list *pairs)
+static void collect(const surface *s, const crv_image *normals, double cosine,
+                    io__pair_list *pairs)
 {
-    const int32_t step = io__sampling_step(frame);
+    const int32_t step = io__sampling_step(normals);
     pairs->count = 0;
-    for (int32_t y = step / 2; y < frame->desc.height; y += step)
-        for (int32_t x = step / 2; x < frame->desc.width; x += step) {
+    for (int32_t y = step / 2; y < normals->height; y += step)
+        for (int32_t x = step / 2; x < normals->width; x += step) {
             float given[3];
-            io__load_normal(&frame->normals, x, y, given);
+            io__load_normal(normals, x, y, given);
             const double length = io__length(given);
             /* Averages over a silhouette are short. */
             if (!(length > 0.9 && length < 1.1) || pairs->count == pairs->capacity
-                || !smooth_normal(frame, x, y, cosine, pairs->to[pairs->count]))
+                || !smooth_normal(s, x, y, cosine, pairs->to[pairs->count]))
                 continue;
             for (int c = 0; c < 3; c++)
                 pairs->from[pairs->count][c] = (float)((double)given[c] / length);
@@ -115,18 +124,66 @@ void io__free_pairs(io__pair_list *pairs)
     free(pairs->to);
 }
 
-void io__find_pairs(const io_frame *frame, io__pair_list *pairs)
+void io__find_pairs(const crv_image *depth, const crv_camera *camera,
+                    const crv_image *normals, io__pair_list *pairs)
 {
-    const size_t step = (size_t)io__sampling_step(frame);
+    const surface s = {depth, camera};
+    const size_t step = (size_t)io__sampling_step(normals);
     const size_t capacity =
-        ((size_t)frame->desc.width / step + 1) * ((size_t)frame->desc.height / step + 1);
+        ((size_t)normals->width / step + 1) * ((size_t)normals->height / step + 1);
     memset(pairs, 0, sizeof *pairs);
     pairs->from = malloc(capacity * sizeof *pairs->from);
     pairs->to = malloc(capacity * sizeof *pairs->to);
-    if (pairs->from && pairs->to) {
-        pairs->capacity = capacity;
-        collect(frame, cos(8.0 * degree), pairs);
-        if (pairs->count < PLENTY)
-            collect(frame, cos(25.0 * degree), pairs);
-    }
+    if (!pairs->from || !pairs->to)
+        return;
+    pairs->capacity = capacity;
+    collect(&s, normals, cos(8.0 * degree), pairs);
+    if (pairs->count < PLENTY)
+        collect(&s, normals, cos(25.0 * degree), pairs);
+}
+
+static int compare_floats(const void *a, const void *b)
+{
+    const float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+/* Sky that holds one number is flat in every encoding. */
+static bool is_constant(const surface *s, int32_t x, int32_t y)
+{
+    if (x < 1 || x >= s->depth->width - 1)
+        return true;
+    const float d = *crv_image_at(s->depth, x, y, 0);
+    return *crv_image_at(s->depth, x - 1, y, 0) == d
+           && *crv_image_at(s->depth, x + 1, y, 0) == d;
+}
+
+double io__surface_bend(const crv_image *depth, const crv_camera *camera)
+{
+    const surface s = {depth, camera};
+    const int32_t step = io__sampling_step(depth);
+    const int32_t apart = depth->width / 100 > 2 ? depth->width / 100 : 2;
+    const size_t capacity = ((size_t)depth->width / (size_t)step + 1)
+                            * ((size_t)depth->height / (size_t)step + 1);
+    float *bends = malloc(capacity * sizeof *bends);
+    size_t count = 0;
+    if (!bends)
+        return -1.0;
+    for (int32_t y = step / 2; y < depth->height; y += step)
+        for (int32_t x = step / 2; x < depth->width && count < capacity; x += step) {
+            float here[3], there[3];
+            if (is_constant(&s, x, y) || is_constant(&s, x + apart, y)
+                || !implied_normal(&s, x, y, here)
+                || !implied_normal(&s, x + apart, y, there))
+                continue;
+            double square = 0.0;
+            for (int c = 0; c < 3; c++)
+                square += ((double)here[c] - (double)there[c])
+                          * ((double)here[c] - (double)there[c]);
+            bends[count++] = (float)(sqrt(square) / degree);
+        }
+    qsort(bends, count, sizeof *bends, compare_floats);
+    const double result = count >= PLENTY ? (double)bends[count * 3 / 10] : -1.0;
+    free(bends);
+    return result;
 }

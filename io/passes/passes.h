@@ -24,6 +24,8 @@ typedef struct io_passes_remedies {
     const char *depth;        /* to choose the depth channel */
     const char *normal;       /* to choose the normals, or none */
     const char *normal_space; /* to say which space they are in */
+    const char *normal_flip;  /* to flip an axis of theirs */
+    const char *encoding;     /* to say what the numbers of depth mean */
     const char *camera;       /* to give the field of view, or an orthographic height */
 } io_passes_remedies;
 
@@ -40,6 +42,13 @@ typedef struct io_passes_request {
     float
         view_height; /* > 0: orthographic, height of the display window in scene units */
     io_normal_space normal_space;
+    bool flip_normals[3]; /* negate x, y, z of the normals as the file has them */
+    /* The encoding is the user's word: another that fits better is told, not taken. */
+    bool encoding_given;
+    /* For frames of a shot. is_later: not its first, which told what contradicts.
+     * usual_reading: io_frame.reading of a frame that decided it, or 0. */
+    bool is_later;
+    int usual_reading;
     io_passes_remedies remedies;
 } io_passes_request;
 
@@ -48,6 +57,10 @@ typedef struct io_frame {
     crv_camera camera;
     bool has_normals;
     crv_normal_space normal_space;
+    /* Which way the normals were read, for io_passes_request.usual_reading; 0: none. And
+     * whether this frame alone decides it. */
+    int reading;
+    bool reading_decided;
     io_image image;                  /* owns the pixels that the views below show */
     crv_image depth[CRV_MAX_LAYERS]; /* planar, whatever the file holds; background
                                         INFINITY */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include <math.h>
+#include <string.h>
 #include <sys/stat.h>
 
 #include "commands.h"
@@ -15,7 +16,7 @@ enum { PATH_SIZE = 4096 };
 typedef struct ao_settings {
     common_settings common;
     const char *input, *output, *frames;
-    const char *depth, *normal;
+    const char *depth, *normal, *normal_flip;
     arg_int depth_encoding, normal_space, layer_kind;
     arg_number vfov_deg, ortho, z_near, z_far, background;
     arg_int bits;
@@ -23,8 +24,16 @@ typedef struct ao_settings {
 } ao_settings;
 
 /* In the order of crv_depth_encoding. */
-static const char *const encodings[] = {"planar",   "radial",    "hardware",
-                                        "reversed", "disparity", NULL};
+static const char *const encodings[] = {"planar",
+                                        "radial",
+                                        "hardware",
+                                        "reversed",
+                                        "disparity",
+                                        "normalised",
+                                        "normalised-reversed",
+                                        "gl",
+                                        "logarithmic",
+                                        NULL};
 /* In the order of io_normal_space. */
 static const char *const spaces[] = {"find", "view", "world", NULL};
 
@@ -86,14 +95,23 @@ static const arg pass_rows[] = {
      .initial = "find",
      .offset = offsetof(ao_settings, normal_space),
      .help = "the space of the normals"},
+    {.name = "--normal-flip",
+     .value = "AXES",
+     .type = ARG_TEXT,
+     .offset = offsetof(ao_settings, normal_flip),
+     .help = "axes of the normals to negate, of x, y and z: y for a green that points "
+             "down, z for normals that look into the picture"},
     {.name = "--depth-encoding",
      .value = "KIND",
      .type = ARG_CHOICE,
      .choices = encodings,
-     .initial = "planar",
+     .computed = "planar, or radial if the normals fit that",
      .offset = offsetof(ao_settings, depth_encoding),
-     .help = "planar: distance along the viewing axis; radial: from the eye; hardware: "
-             "depth buffer, 0 at near; reversed: 1 at near; disparity: 1/planar"},
+     .help =
+         "planar: distance along the viewing axis; radial: from the eye; hardware: "
+         "depth buffer, 0 at near; reversed: 1 at near; disparity: 1/planar; "
+         "normalised: planar, 0 at near and 1 at far; normalised-reversed: 1 at near; "
+         "gl: depth buffer from -1 to 1; logarithmic: log(1 + planar)/log(1 + far)"},
     {.name = "--layer-kind",
      .value = "KIND",
      .type = ARG_CHOICE,
@@ -109,7 +127,7 @@ static const arg pass_rows[] = {
      .max = 1e9,
      .unit = "scene units",
      .offset = offsetof(ao_settings, z_near),
-     .help = "near plane of a hardware or reversed depth"},
+     .help = "near plane of a depth between planes"},
     {.name = "--far",
      .value = "D",
      .type = ARG_NUMBER,
@@ -166,34 +184,51 @@ static const char *const examples[] = {
     NULL,
 };
 
-static bool uses_planes(const ao_settings *s)
+static bool is_linear(const ao_settings *s)
+{
+    return s->depth_encoding.value == CRV_DEPTH_NORMALISED
+           || s->depth_encoding.value == CRV_DEPTH_NORMALISED_REVERSED || s->ortho.given;
+}
+
+static bool uses_far(const ao_settings *s)
 {
     return s->depth_encoding.value == CRV_DEPTH_HARDWARE
-           || s->depth_encoding.value == CRV_DEPTH_REVERSED;
+           || s->depth_encoding.value == CRV_DEPTH_REVERSED
+           || s->depth_encoding.value > CRV_DEPTH_DISPARITY;
+}
+
+static bool uses_near(const ao_settings *s)
+{
+    return uses_far(s) && s->depth_encoding.value != CRV_DEPTH_LOGARITHMIC;
 }
 
 static const char *depth_mistake(const ao_settings *s)
 {
     const bool distance = s->depth_encoding.value == CRV_DEPTH_PLANAR
                           || s->depth_encoding.value == CRV_DEPTH_RADIAL;
-    const bool ortho = s->ortho.given;
-    if (!uses_planes(s) && (s->z_near.given || s->z_far.given))
-        return "--near: is for --depth-encoding hardware or reversed; leave it out or "
-               "add "
+    if (!uses_near(s) && s->z_near.given)
+        return "--near: is for --depth-encoding hardware, reversed, normalised, "
+               "normalised-reversed or gl; leave it out or add that";
+    if (!uses_far(s) && s->z_far.given)
+        return "--far: is for a --depth-encoding between planes; leave it out or add "
                "that";
     if (!distance && s->background.given)
         return "--background: is for planar or radial depth; leave it out";
-    if (!uses_planes(s))
+    if (!uses_far(s))
         return NULL;
-    if (!s->z_near.given || !s->z_far.given)
-        return "--depth-encoding: hardware depth has near and far planes; add --near and "
-               "--far";
-    if (!ortho && s->z_near.value <= 0.0)
+    if ((uses_near(s) && !s->z_near.given) || !s->z_far.given)
+        return uses_near(s) ? "--depth-encoding: such depth has near and far planes; add "
+                              "--near and --far"
+                            : "--depth-encoding: logarithmic depth has a far plane; add "
+                              "--far";
+    if (uses_near(s) && !is_linear(s) && s->z_near.value <= 0.0)
         return "--near: must be greater than 0";
-    if (s->z_far.value <= s->z_near.value)
-        return "--far: must be greater than --near";
-    if (ortho && isinf(s->z_far.value))
-        return "--far: must be finite in an orthographic view";
+    if (s->z_far.value <= (uses_near(s) ? s->z_near.value : 0.0))
+        return uses_near(s) ? "--far: must be greater than --near"
+                            : "--far: must be greater than 0";
+    if ((is_linear(s) || !uses_near(s)) && isinf(s->z_far.value))
+        return "--far: must be finite in an orthographic view, and for normalised and "
+               "logarithmic depth";
     return NULL;
 }
 
@@ -223,6 +258,9 @@ static const char *frames_mistake(const ao_settings *s, frame_range *range)
 static int check(const ao_settings *s, frame_range *range, report *r)
 {
     const char *mistake = depth_mistake(s);
+    if (!mistake && s->normal_flip
+        && strspn(s->normal_flip, "xyz") != strlen(s->normal_flip))
+        mistake = "--normal-flip: names axes out of x, y and z, such as y or xz";
     if (!mistake && estimate_is_of_relief(&s->common.options))
         mistake = "--characteristic field: frames have no relief; leave it out";
     if (!mistake && s->vfov_deg.given && s->ortho.given)
@@ -246,14 +284,19 @@ static io_passes_request make_request(const ao_settings *s)
         .remedies = {.depth = "choose with --depth NAME",
                      .normal = "choose with --normal NAME, or --normal none",
                      .normal_space = "say --normal-space view if that is what they are",
+                     .normal_flip = "add --normal-flip x, y or z",
+                     .encoding = "say so with --depth-encoding or --vfov",
                      .camera = "give its vertical field of view with --vfov DEGREES (or "
                                "--ortho HEIGHT for an orthographic one)"},
     };
     request.depth_format.encoding = (crv_depth_encoding)s->depth_encoding.value;
-    if (uses_planes(s)) {
+    request.encoding_given = s->depth_encoding.given;
+    if (uses_near(s))
         request.depth_format.z_near = (float)s->z_near.value;
+    if (uses_far(s))
         request.depth_format.z_far = (float)s->z_far.value;
-    }
+    for (int i = 0; s->normal_flip && s->normal_flip[i]; i++)
+        request.flip_normals[s->normal_flip[i] - 'x'] = true;
     if (s->background.given)
         request.depth_format.background = (float)s->background.value;
     if (s->vfov_deg.given)

@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: MIT */
+#include "camera.h"
+
+#include <string.h>
+
+#include "internal.h"
+#include "ndc.h"
+
+/* Rotation without a projection, from worldToCamera; false if it says nothing. */
+static bool find_rotation(const io_camera_metadata *metadata, io__camera_guess *guess)
+{
+    float rotation[9];
+    if (!metadata->has_world_to_camera || io__is_identity(metadata->world_to_camera)
+        || io__rotation_from_world_to_camera(metadata->world_to_camera, rotation))
+        return false;
+    for (int i = 0; i < 9; i++)
+        guess->to_view[i] = (double)rotation[i];
+    return true;
+}
+
+static void tell_of_no_camera(const char *path, const io_camera_metadata *metadata,
+                              const crv_logger *log)
+{
+    if (!metadata->has_world_to_ndc)
+        return;
+    if (io__is_identity(metadata->world_to_ndc))
+        io__info(log, path,
+                 "its worldToNDC metadata is the identity, which is no camera");
+    else
+        io__warn(log, path, "its worldToNDC metadata is no projection; it is ignored");
+}
+
+/* What the caller says, with the rotation that the file says. */
+static int find_given(const io_image *image, const io_passes_request *request,
+                      const io__ndc_camera *described, io__camera_guess *guess)
+{
+    const int32_t width = image->display_width, height = image->display_height;
+    *guess = (io__camera_guess){.text = "as given"};
+    guess->camera = request->vfov_rad > 0.0f
+                        ? crv_camera_perspective(width, height, request->vfov_rad)
+                        : crv_camera_orthographic(width, height, request->view_height);
+    guess->camera.fx_px /= image->pixel_aspect;
+    guess->has_rotation = described || find_rotation(&image->camera, guess);
+    if (described)
+        memcpy(guess->to_view, described->to_view, sizeof guess->to_view);
+    return 1;
+}
+
+int io__find_cameras(const char *path, const io_image *image,
+                     const io_passes_request *request,
+                     io__camera_guess out[IO__MAX_CAMERAS], const crv_logger *log)
+{
+    static const float identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    io__ndc_camera described[2];
+    int count = io__cameras_from_ndc(&image->camera, image->display_width,
+                                     image->display_height, described);
+    if (count == 0)
+        tell_of_no_camera(path, &image->camera, log);
+    if (request->vfov_rad > 0.0f || request->view_height > 0.0f) {
+        count = find_given(image, request, count ? &described[0] : NULL, &out[0]);
+    } else if (count == 0) {
+        return io__fail(log, path, "does not say which camera made it; %s",
+                        request->remedies.camera
+                            ? request->remedies.camera
+                            : "give its field of view, or the height of an orthographic "
+                              "view");
+    } else {
+        for (int i = 0; i < count; i++) {
+            out[i] = (io__camera_guess){.camera = described[i].camera,
+                                        .has_rotation = true,
+                                        .text = described[i].is_signed
+                                                    ? "worldToNDC metadata from -1 to 1"
+                                                    : "worldToNDC metadata from 0 to 1"};
+            memcpy(out[i].to_view, described[i].to_view, sizeof out[i].to_view);
+            memcpy(out[i].camera.world_to_view, identity, sizeof identity);
+        }
+    }
+    for (int i = 0; i < count; i++)
+        out[i].camera = crv_camera_crop(&out[i].camera, image->data_x, image->data_y);
+    return count;
+}
