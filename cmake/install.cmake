@@ -93,3 +93,12 @@ if(TARGET crevice_tool AND NOT CMAKE_INSTALL_PREFIX STREQUAL "/usr")
         set_target_properties(crevice_tool PROPERTIES INSTALL_RPATH "$ORIGIN/${crevice_rpath}")
     endif()
 endif()
+
+# Archives of what is installed: cpack -G TGZ, cpack -G ZIP.
+if(PROJECT_IS_TOP_LEVEL)
+    set(CPACK_GENERATOR TGZ ZIP)
+    set(CPACK_PACKAGE_VENDOR "The Crevice authors")
+    set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+    set(CPACK_VERBATIM_VARIABLES ON)
+    include(CPack)
+endif()
