@@ -25,6 +25,9 @@ python3     python3
 spirv-val   spirv-tools
 clang-format  clang-format
 -           libcmocka-dev
+-           python3-dev
+-           python3-numpy
+-           python3-pytest
 -           mesa-vulkan-drivers
 -           vulkan-validationlayers
 '
@@ -182,6 +185,10 @@ configure()
     if [ -f "build/$preset/CMakeCache.txt" ]; then
         home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "build/$preset/CMakeCache.txt")
         [ "$home" = "$(pwd -P)" ] || fresh=(--fresh)
+    fi
+    # Modules of Python come as packages of the system, for the system's interpreter.
+    if [ -x /usr/bin/python3 ]; then
+        fresh+=(-DPython3_EXECUTABLE=/usr/bin/python3)
     fi
     cmake --preset "$preset" "${fresh[@]}" --log-level=WARNING "$@" >/dev/null
 }
