@@ -2,7 +2,7 @@
 # The Python module, by pytest. Needs numpy and pytest beside the interpreter that the module
 # was built for.
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
-add_test(NAME python_module COMMAND ${Python3_EXECUTABLE} -m pytest -q -p no:cacheprovider
+add_test(NAME python_module COMMAND ${Python3_EXECUTABLE} -m pytest -q -W error -p no:cacheprovider
     ${PROJECT_SOURCE_DIR}/python/tests)
 set(environment "PYTHONPATH=${PROJECT_BINARY_DIR}/python")
 if(TARGET crevice_tool)

@@ -16,8 +16,8 @@ def terrain(size=512, seed=1):
     noise = np.random.default_rng(seed).standard_normal((size, size))
     frequency = np.hypot(*np.meshgrid(np.fft.fftfreq(size), np.fft.fftfreq(size)))
     frequency[0, 0] = 1
-    heights = np.fft.ifft2(np.fft.fft2(noise) * frequency ** -1.9).real
-    return 60 * (heights - heights.min()) / np.ptp(heights)
+    heights = np.fft.ifft2(np.fft.fft2(noise) * frequency ** -2.3).real
+    return 160 * (heights - heights.min()) / np.ptp(heights)
 
 
 def main():
@@ -25,7 +25,7 @@ def main():
     rows, columns = heights.shape
     depth = heights.max() + 1 - heights  # the camera looks straight down
     camera = crevice.Camera.parallel(columns, rows, view_height=rows)
-    openness = crevice.ao(depth, camera=camera, radius=40, preset="high")
+    openness = crevice.ao(depth, camera=camera, radius=60, preset="high")
     matplotlib.image.imsave(sys.argv[1], openness, cmap="gray", vmin=0, vmax=1)
 
 

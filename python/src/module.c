@@ -21,6 +21,8 @@ static int add_type(PyObject *module, const char *name, PyTypeObject *type)
     return -1;
 }
 
+PyMODINIT_FUNC PyInit__crevice(void);
+
 PyMODINIT_FUNC PyInit__crevice(void)
 {
     PyObject *module = PyModule_Create(&definition);
