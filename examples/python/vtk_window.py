@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Ambient occlusion for a VTK window, off screen: its z-buffer in, its picture darkened.
-Usage: vtk_window.py OUT.png
+Usage: vtk_window.py OUT.png (without a display: xvfb-run vtk_window.py OUT.png)
 """
 import sys
 
@@ -49,7 +49,7 @@ def main(out):
     columns, rows = shown.GetSize()
     z, colours = vtk.vtkFloatArray(), vtk.vtkUnsignedCharArray()
     shown.GetZbufferData(0, 0, columns - 1, rows - 1, z)
-    shown.GetPixelData(0, 0, columns - 1, rows - 1, 1, colours)
+    shown.GetPixelData(0, 0, columns - 1, rows - 1, 1, colours, 0)
     depth = vtk_to_numpy(z).reshape(rows, columns)[::-1]  # VTK's first row is the lowest
     picture = vtk_to_numpy(colours).reshape(rows, columns, 3)[::-1] / 255
     near, far = camera.GetClippingRange()
