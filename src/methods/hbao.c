@@ -43,7 +43,7 @@ static void add_sample(slice *s, const crv__params *p, crv__vec3 P, crv__vec3 n,
     if (!(length > 0))
         return;
     float sin_t = T.z / length, cos_t = sqrtf(T.x * T.x + T.y * T.y) / length;
-    if (cos_t * p->cos_bias <= sin_t * p->sin_bias)
+    if (sin_t > 0 && cos_t * p->cos_bias <= sin_t * p->sin_bias)
         return; /* the bias raises the tangent past the zenith */
     float h = v.z / r - (sin_t * p->cos_bias + cos_t * p->sin_bias);
     if (h <= s->horizon)
