@@ -196,13 +196,19 @@ static int is_depth(VkFormat format)
 host_image host_image_make(const host *h, VkFormat format, int width, int height,
                            VkImageUsageFlags usage)
 {
+    return host_image_make_layers(h, format, width, height, 1, usage);
+}
+
+host_image host_image_make_layers(const host *h, VkFormat format, int width, int height,
+                                  int layers, VkImageUsageFlags usage)
+{
     host_image i = {0};
     const VkImageCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
                                     .imageType = VK_IMAGE_TYPE_2D,
                                     .format = format,
                                     .extent = {(uint32_t)width, (uint32_t)height, 1},
                                     .mipLevels = 1,
-                                    .arrayLayers = 1,
+                                    .arrayLayers = (uint32_t)layers,
                                     .samples = VK_SAMPLE_COUNT_1_BIT,
                                     .usage = usage};
     host_check(vkCreateImage(h->device, &info, NULL, &i.image), "image");

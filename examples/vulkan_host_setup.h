@@ -37,6 +37,9 @@ typedef struct host_image {
 
 host_image host_image_make(const host *h, VkFormat format, int width, int height,
                            VkImageUsageFlags usage);
+/* An array; the view is of its first layer. */
+host_image host_image_make_layers(const host *h, VkFormat format, int width, int height,
+                                  int layers, VkImageUsageFlags usage);
 void host_image_free(const host *h, host_image *image);
 
 typedef struct host_buffer {

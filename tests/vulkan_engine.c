@@ -138,7 +138,14 @@ host_image engine_result(engine *e, VkFormat format, int width, int height)
 void *engine_download(engine *e, const host_image *image, int width, int height,
                       size_t size)
 {
-    const VkBufferImageCopy copy = whole(VK_IMAGE_ASPECT_COLOR_BIT, width, height);
+    return engine_download_layer(e, image, 0, width, height, size);
+}
+
+void *engine_download_layer(engine *e, const host_image *image, int layer, int width,
+                            int height, size_t size)
+{
+    VkBufferImageCopy copy = whole(VK_IMAGE_ASPECT_COLOR_BIT, width, height);
+    copy.imageSubresource.baseArrayLayer = (uint32_t)layer;
     const VkMemoryBarrier2 barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
                                       .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
                                       .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
@@ -159,4 +166,49 @@ void *engine_download(engine *e, const host_image *image, int width, int height,
         memcpy(bytes, buffer.bytes, size);
     host_buffer_free(&e->h, &buffer);
     return bytes;
+}
+
+host_image engine_filled(engine *e, VkFormat format, int width, int height, float value)
+{
+    const host_use nothing = {VK_PIPELINE_STAGE_2_NONE, 0, VK_IMAGE_LAYOUT_UNDEFINED};
+    const host_use cleared = {VK_PIPELINE_STAGE_2_CLEAR_BIT,
+                              VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                              VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
+    const host_use read = {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
+                           VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
+    const VkClearColorValue colour = {.float32 = {value, value, value, value}};
+    const VkImageSubresourceRange range = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    const host_image image = engine_result(e, format, width, height);
+    const VkCommandBuffer commands = engine_begin(e, 0);
+    host_barrier(commands, image.image, VK_IMAGE_ASPECT_COLOR_BIT, nothing, cleared);
+    vkCmdClearColorImage(commands, image.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                         &colour, 1, &range);
+    host_barrier(commands, image.image, VK_IMAGE_ASPECT_COLOR_BIT, cleared, read);
+    engine_submit(e, 0);
+    engine_wait(e);
+    return image;
+}
+
+engine_array engine_array_make(engine *e, VkFormat format, int width, int height)
+{
+    engine_array a = {.image = host_image_make_layers(
+                          &e->h, format, width, height, 2,
+                          VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT)};
+    for (uint32_t i = 0; i < 2; i++) {
+        const VkImageViewCreateInfo view = {
+            .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+            .image = a.image.image,
+            .viewType = VK_IMAGE_VIEW_TYPE_2D,
+            .format = format,
+            .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, i, 1}};
+        host_check(vkCreateImageView(e->h.device, &view, NULL, &a.layer[i]), "view");
+    }
+    return a;
+}
+
+void engine_array_free(engine *e, engine_array *a)
+{
+    for (int i = 0; i < 2; i++)
+        vkDestroyImageView(e->h.device, a->layer[i], NULL);
+    host_image_free(&e->h, &a->image);
 }

@@ -34,4 +34,17 @@ host_image engine_result(engine *e, VkFormat format, int width, int height);
 void *engine_download(engine *e, const host_image *image, int width, int height,
                       size_t size);
 
+/* An image for a result whose texels hold a number, in TRANSFER_SRC_OPTIMAL. */
+host_image engine_filled(engine *e, VkFormat format, int width, int height, float value);
+
+/* An array of two layers for results; and the bytes of a layer, as above. */
+typedef struct engine_array {
+    host_image image;
+    VkImageView layer[2];
+} engine_array;
+engine_array engine_array_make(engine *e, VkFormat format, int width, int height);
+void engine_array_free(engine *e, engine_array *array);
+void *engine_download_layer(engine *e, const host_image *image, int layer, int width,
+                            int height, size_t size);
+
 #endif

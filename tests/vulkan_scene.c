@@ -105,18 +105,25 @@ static void put_normal(VkFormat format, crv_vulkan_normals kind, double n[3], vo
 
 void scene_make(scene *s, const scene_encoding *e, double scale)
 {
-    s->camera = crv_camera_perspective(SCENE_WIDTH, SCENE_HEIGHT, 1);
-    memcpy(s->camera.world_to_view, TO_VIEW, sizeof TO_VIEW);
-    crv_gbuffer_desc_init(&s->desc, sizeof s->desc, SCENE_WIDTH, SCENE_HEIGHT);
+    scene_make_sized(s, e, scale, SCENE_WIDTH, SCENE_HEIGHT);
     s->desc.guard_left = 9;
     s->desc.guard_top = 3;
     s->desc.guard_right = 1;
     s->desc.origin_x = 9;
+}
+
+void scene_make_sized(scene *s, const scene_encoding *e, double scale, int width,
+                      int height)
+{
+    assert_true(width <= SCENE_WIDTH && height <= SCENE_HEIGHT);
+    const size_t count = (size_t)width * (size_t)height;
+    s->camera = crv_camera_perspective(width, height, 1);
+    memcpy(s->camera.world_to_view, TO_VIEW, sizeof TO_VIEW);
+    crv_gbuffer_desc_init(&s->desc, sizeof s->desc, width, height);
     memset(s->depth_bytes, 0, sizeof s->depth_bytes);
     memset(s->normal_bytes, 0, sizeof s->normal_bytes);
-    fixture f =
-        fixture_make(fixture_spheres, &scale, &s->camera, SCENE_WIDTH, SCENE_HEIGHT);
-    for (size_t i = 0; i < SCENE_PIXELS; i++) {
+    fixture f = fixture_make(fixture_spheres, &scale, &s->camera, width, height);
+    for (size_t i = 0; i < count; i++) {
         double n[3], world[3];
         s->depth[i] =
             put_depth(e->depth_format, stored_depth(e->depth, (double)f.depth[i]),
@@ -176,9 +183,9 @@ float *scene_planned(crv_context *context, const scene *s, const scene_encoding 
     const crv_options options = scene_options(e);
     const crv_depth_format format = scene_depth_format(e);
     const crv_const_image depth =
-        crv_const_image_packed(s->depth, SCENE_WIDTH, SCENE_HEIGHT, 1);
+        crv_const_image_packed(s->depth, s->desc.width, s->desc.height, 1);
     const crv_const_image normals =
-        crv_const_image_packed(s->normals, SCENE_WIDTH, SCENE_HEIGHT, 3);
+        crv_const_image_packed(s->normals, s->desc.width, s->desc.height, 3);
     float *pixels = malloc(SCENE_PIXELS * sizeof *pixels);
     const crv_image result =
         crv_image_packed(pixels, result_width(s), result_height(s), 1);
@@ -226,12 +233,13 @@ crv_vulkan_pass_desc scene_pass_desc(const scene_encoding *e)
 scene_images scene_upload(engine *g, const scene *s, const scene_encoding *e)
 {
     scene_images i = {0};
-    i.depth = engine_upload(g, e->depth_format, SCENE_WIDTH, SCENE_HEIGHT, s->depth_bytes,
-                            SCENE_PIXELS * texel_bytes(e->depth_format));
+    const int width = s->desc.width, height = s->desc.height;
+    const size_t count = (size_t)width * (size_t)height;
+    i.depth = engine_upload(g, e->depth_format, width, height, s->depth_bytes,
+                            count * texel_bytes(e->depth_format));
     if (e->normals)
-        i.normals =
-            engine_upload(g, e->normal_format, SCENE_WIDTH, SCENE_HEIGHT, s->normal_bytes,
-                          SCENE_PIXELS * texel_bytes(e->normal_format));
+        i.normals = engine_upload(g, e->normal_format, width, height, s->normal_bytes,
+                                  count * texel_bytes(e->normal_format));
     i.result = engine_result(g, e->result_format, result_width(s), result_height(s));
     return i;
 }

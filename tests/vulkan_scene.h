@@ -41,7 +41,11 @@ typedef struct scene {
     unsigned char depth_bytes[16 * SCENE_PIXELS], normal_bytes[16 * SCENE_PIXELS];
 } scene;
 
+/* With a guard band, at an odd origin. */
 void scene_make(scene *s, const scene_encoding *e, double scale);
+/* Without, of another size up to that of scene_make(). */
+void scene_make_sized(scene *s, const scene_encoding *e, double scale, int width,
+                      int height);
 crv_options scene_options(const scene_encoding *e);
 crv_vulkan_pass_desc scene_pass_desc(const scene_encoding *e);
 

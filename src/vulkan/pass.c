@@ -24,9 +24,10 @@ static crv_status create_parts(crv__pass *p, const crv__setup *setup,
 {
     const crv__device *d = p->device;
     const crv_vulkan_depth_layout layout = desc->depth_layout;
-    const VkFormat normals = VK_FORMAT_R32G32B32A32_SFLOAT, depth = VK_FORMAT_R32_SFLOAT;
+    const VkFormat sure = VK_FORMAT_R32_SFLOAT; /* every device stores and samples it */
     const crv__program_desc program = {
         .converts = desc->converts,
+        .octahedral = !desc->single,
         .edge = layout == CRV_VULKAN_DEPTH_DEINTERLEAVED
                     ? crv__deinterleave_edge(d, setup)
                     : 1,
@@ -34,9 +35,9 @@ static crv_status create_parts(crv__pass *p, const crv__setup *setup,
         .level_px = layout == CRV_VULKAN_DEPTH_LEVELS ? desc->level_px : 0};
     const crv__scratch_desc scratch = {
         .normal_format =
-            desc->single ? normals : preferred(d, VK_FORMAT_R16G16B16A16_SNORM, normals),
+            desc->single ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R32G32_SFLOAT,
         .accessibility_format =
-            desc->single ? depth : preferred(d, VK_FORMAT_R16_SFLOAT, depth)};
+            desc->single ? sure : preferred(d, VK_FORMAT_R16_SFLOAT, sure)};
     const bool timestamps = desc->timestamps && d->timestamp_bits > 0;
     crv_status status = crv__program_create(&p->program, d, setup, &program);
     if (status == CRV_OK)

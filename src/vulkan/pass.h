@@ -17,8 +17,10 @@ typedef struct crv__pass {
 } crv__pass;
 
 typedef struct crv__pass_desc {
-    bool converts;   /* the host's images are converted on the device */
-    bool single;     /* normals and accessibility in 32 bits */
+    bool converts; /* the host's images are converted on the device */
+    /* Normals as x, y, z and accessibility in 32 bits; else normals as two octahedral
+     * numbers of 32 bits and accessibility in 16. */
+    bool single;
     bool timestamps; /* if the device has them */
     int32_t slots;   /* recordings in flight */
     crv_vulkan_depth_layout depth_layout;

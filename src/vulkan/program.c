@@ -66,18 +66,20 @@ crv_status crv__setup_check(const crv__device *d, const crv__setup *setup)
     return CRV_OK;
 }
 
-static void clear_specs(crv__pipeline *pipeline, int32_t group, int32_t specs[CRV__SPECS])
+static void clear_specs(const crv__program *p, crv__pipeline *pipeline, int32_t group,
+                        int32_t specs[CRV__SPECS])
 {
     *pipeline =
         (crv__pipeline){.group = group, .lanes_x = 1, .lanes_y = 1, .pixel_stride = 1};
     crv__specs_clear(specs, group);
+    specs[CRV__SPEC_NORMALS_OCTAHEDRAL] = p->desc.octahedral;
 }
 
 static crv_status take_estimate(crv__program *p, const crv__setup *setup, int32_t group)
 {
     const crv_options *o = &setup->options;
     int32_t specs[CRV__SPECS];
-    clear_specs(&p->estimate, group, specs);
+    clear_specs(p, &p->estimate, group, specs);
     specs[CRV__SPEC_PIXEL_STRIDE] = specs[CRV__SPEC_DEPTH_EDGE] =
         p->estimate.pixel_stride = p->desc.edge;
     specs[CRV__SPEC_LOD_PX] = p->desc.level_px;
@@ -120,7 +122,7 @@ static crv_status take_filter(crv__program *p, const crv__setup *setup, int32_t 
                               int32_t pass)
 {
     int32_t specs[CRV__SPECS];
-    clear_specs(&p->filter[pass], group, specs);
+    clear_specs(p, &p->filter[pass], group, specs);
     specs[CRV__SPEC_FILTER_SLOPE] = setup->options.filter_slope;
     specs[CRV__SPEC_FILTER_PASS] = pass;
     const bool half = crv__program_uses_half(p, &setup->options);
@@ -135,7 +137,7 @@ static crv_status take_other(crv__program *p, const char *shader, int32_t group,
                              int32_t edge, crv__pipeline *out)
 {
     int32_t specs[CRV__SPECS];
-    clear_specs(out, group, specs);
+    clear_specs(p, out, group, specs);
     specs[CRV__SPEC_PIXEL_STRIDE] = specs[CRV__SPEC_DEPTH_EDGE] = out->pixel_stride =
         edge;
     return crv__pipeline_take(p->device, shader, specs, &out->pipeline);

@@ -18,9 +18,10 @@ typedef struct crv__pipeline {
 
 /* What a program does beside estimate and filter. */
 typedef struct crv__program_desc {
-    bool converts; /* the host's images are converted on the device */
-    int32_t edge;  /* of the phases by which depth is deinterleaved, px; 1: it is not */
-    bool half;     /* filters compute in half floats if the device can */
+    bool octahedral; /* normals are two numbers */
+    bool converts;   /* the host's images are converted on the device */
+    int32_t edge;    /* of the phases by which depth is deinterleaved, px; 1: it is not */
+    bool half;       /* filters compute in half floats if the device can */
     int32_t level_px; /* distance from which coarser levels of depth are read; 0: never */
 } crv__program_desc;
 
