@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* From renderers' passes to frames: names, cameras, windows, spaces of normals. */
+#include <ctype.h>
 #include <math.h>
 #include <sys/stat.h>
 
+#include "passes/conventions.h"
 #include "passes/passes.h"
 #include "test_io_support.h"
 
@@ -272,10 +274,20 @@ static void test_names(void **state)
         {{"DEPTH", "NX", "NY", "NZ", "AO"}, "DEPTH", "NX"},
         {{"beauty.Z", "R", "G", "B"}, "beauty.Z", NULL},
         {{"z", "Nworld.R", "Nworld.G", "Nworld.B", "Nn.R", "Nn.G", "Nn.B"}, "z", "Nn.R"},
-        {{"Y"}, "Y", NULL},
+        {{"shadow.Z", "camera_depth.R", "N.X", "N.Y", "N.Z"}, "camera_depth.R", "N.X"},
+        {{"Px", "Py", "Pz", "depth.R"}, "depth.R", NULL},
+        {{"FinalImageMovieRenderQueue_WorldDepth.R", "FinalImageWorldNormal.R",
+          "FinalImageWorldNormal.G", "FinalImageWorldNormal.B"},
+         "FinalImageMovieRenderQueue_WorldDepth.R",
+         "FinalImageWorldNormal.R"},
+        {{"V.Denoising Depth.left.Z", "V.Depth.left.Z", "V.Depth.right.Z",
+          "V.Normal.left.X", "V.Normal.left.Y", "V.Normal.left.Z"},
+         "V.Depth.left.Z",
+         "V.Normal.left.X"},
         {{"R", "G", "B"}, NULL, NULL},
         {{"AO"}, NULL, NULL},
         {{"P.X", "P.Y", "P.Z"}, NULL, NULL},
+        {{"Px", "Py", "Pz", "Nx", "Ny", "Nz"}, NULL, NULL},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const char *path = support_path("names.exr");
@@ -301,6 +313,58 @@ static void test_names(void **state)
         if (cases[i].normal_x)
             assert_string_equal(frame.image.channels[1].name, cases[i].normal_x);
         assert_int_equal(frame.has_normals, cases[i].normal_x != NULL);
+        io_frame_free(&frame);
+    }
+}
+
+/* A single Y is luminance in an EXR, grey in other formats. */
+static void test_only_channel(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"Y"};
+    const float value = 1.0f, *planes[] = {&value};
+    io_passes_request request = default_request();
+    io_frame frame;
+    const char *path = support_path("only.exr");
+    support_make_plain_exr(path, names, 1, 1, 1, planes);
+    support_forget();
+    assert_int_equal(io_frame_load(path, &request, &frame, support_logger()), -1);
+    support_expect_error(path, "luminance");
+    request.depth = "Y";
+    load(path, &request, &frame);
+    io_frame_free(&frame);
+    request.depth = NULL;
+    path = support_path("only.pfm");
+    support_make_plain_exr(path, names, 1, 1, 1, planes);
+    load(path, &request, &frame);
+    io_frame_free(&frame);
+}
+
+/* Every row of the table is found by its name, with a prefix and in another case. */
+static void test_conventions(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < io_convention_count; i++) {
+        const io_convention *row = &io_conventions[i];
+        const char *form = row->is_normal ? "Beauty.%s.%c" : "Beauty.%s.R";
+        const char *path = support_path("row.exr");
+        io_passes_request request = default_request();
+        char text[4][128];
+        const char *names[4] = {text[0], text[1], text[2], text[3]};
+        const float value[4] = {1, 1, 1, 1}, *planes[] = {value, value, value, value};
+        io_frame frame;
+        snprintf(text[0], sizeof text[0], row->is_normal ? "Beauty.Z" : form, row->name);
+        for (int c = 0; c < 3; c++)
+            snprintf(text[1 + c], sizeof text[1], "Beauty.%s.%c",
+                     row->is_normal ? row->name : "N", "RGB"[c]);
+        for (char *c = text[0]; *c; c++)
+            *c = (char)tolower((unsigned char)*c);
+        request.normal_space = IO_NORMALS_VIEW;
+        support_make_plain_exr(path, names, 4, 2, 2, planes);
+        support_forget();
+        load(path, &request, &frame);
+        assert_string_equal(frame.image.channels[0].name, text[0]);
+        assert_string_equal(frame.image.channels[1].name, text[1]);
         io_frame_free(&frame);
     }
 }
@@ -673,6 +737,8 @@ int main(void)
         cmocka_unit_test(test_senseless_normals),
         cmocka_unit_test(test_too_few_pixels),
         cmocka_unit_test(test_names),
+        cmocka_unit_test(test_only_channel),
+        cmocka_unit_test(test_conventions),
         cmocka_unit_test(test_choice_by_name),
         cmocka_unit_test(test_layers),
         cmocka_unit_test(test_layers_of_solids),

@@ -103,3 +103,8 @@ good ao half.pfm --vfov 60 --depth-encoding hardware --near 1 --far 10 -o d1.exr
 good ao half.pfm --vfov 60 --depth-encoding reversed --near 1 --far inf -o d2.exr
 good ao half.pfm --ortho 3 --depth-encoding disparity -o d3.exr
 good ao half.pfm --vfov 60 --depth-encoding radial --background 5 -o d4.exr
+
+# The table of renderers' passes.
+good help passes
+grep -q 'VRayZDepth' stdout.txt && grep -q 'WorldNormal .*left-handed' stdout.txt ||
+    fail "help passes"

@@ -1,72 +1,30 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * names.c: the names that renderers give to depth and normals. A channel is
- * "PREFIX.LAYER.COMPONENT", of which the prefix ("ViewLayer", a part's name) may be
- * anything and may be missing. Tables are in order of preference; case does not matter.
+ * names.c: which channels are depth and normals. A channel is
+ * "PREFIX.LAYER.VIEW.COMPONENT", of which the prefix ("ViewLayer", a part's name) may be
+ * anything and may be missing, and the view ("left") is there in stereo frames only. The
+ * names of layers are those of conventions.c; case does not matter.
  */
+#include <ctype.h>
 #include <string.h>
 #include <strings.h>
 
+#include "conventions.h"
 #include "internal.h"
 #include "names.h"
 
-static const char *const depth_layers[] = {
-    "depth",            /* Blender, Redshift, Karma, Nuke, Mitsuba, LuxCore */
-    "z",                /* Arnold, RenderMan, Redshift */
-    "zdepth",           /* V-Ray, Octane */
-    "z-depth",          /* Octane */
-    "z_depth",          /* Corona */
-    "z depth",          /* Octane, older */
-    "vrayzdepth",       /* V-Ray for 3ds Max */
-    "vray_zdepth",      /* V-Ray for Maya */
-    "cgeometry_zdepth", /* Corona */
-    "pz",               /* Mantra */
-    "__depth",          /* RenderMan's denoiser */
-    "scenedepth",       /* Unreal */
-    "worlddepth",       /* Unreal */
-    "finalimageworlddepth",
-    "zfiltered", /* RenderMan */
-    "depth_filtered",
-    "denoising depth" /* Cycles: last, since it sees through mirrors */
-};
+#define COUNT(a) (sizeof(a) / sizeof(a)[0])
 
 /* "" stands for a layer that is a channel itself. */
 static const char *const depth_components[] = {"", "Z", "V", "Y", "R", "T", "depth"};
 
-static const char *const normal_layers[] = {
-    "n",              /* Arnold, RenderMan, Mantra, Redshift, Cycles */
-    "normal",         /* Blender, Cinema 4D */
-    "normals",        /* Redshift, V-Ray */
-    "nn",             /* RenderMan */
-    "vraynormals",    /* V-Ray */
-    "shading normal", /* Octane */
-    "shading_normal", /* LuxCore */
-    "sh_normal",      /* Mitsuba */
-    "ns",             /* pbrt */
-    "hitn",           /* Karma */
-    "worldnormal",    /* Unreal */
-    "world_normal",
-    "normalworld",
-    "normal_world",
-    "nworld",   /* RenderMan */
-    "__nworld", /* RenderMan's denoiser */
-    "ncam",
-    "finalimageworldnormal",
-    "geometric normal",          /* Octane */
-    "geometry_normal",           /* LuxCore */
-    "geo_normal",                /* Mitsuba */
-    "cgeometry_normalsgeometry", /* Corona */
-    "ng",
-    "bumpnormals", /* Redshift */
-    "denoising normal"};
-
-#define COUNT(a) (sizeof(a) / sizeof(a)[0])
-
 /* A channel's name in its pieces; lengths in bytes. */
 typedef struct split_name {
-    const char *layer; /* the last piece but one, or the whole of a name without dots */
+    const char *layer; /* the last piece but component and view */
     size_t prefix;     /* length of what stands before the layer, its dot included */
     size_t layer_length;
+    const char *view; /* "left" of a stereo frame, not terminated */
+    size_t view_length;
     const char *component; /* "" for a name without dots */
 } split_name;
 
@@ -75,19 +33,70 @@ static bool same_text(const char *a, size_t length, const char *b)
     return strlen(b) == length && !strncasecmp(a, b, length);
 }
 
+static bool contains(const char *text, size_t length, const char *word)
+{
+    const size_t size = strlen(word);
+    for (size_t i = 0; i + size <= length; i++)
+        if (!strncasecmp(text + i, word, size))
+            return true;
+    return false;
+}
+
+static bool is_view(const char *text, size_t length)
+{
+    static const char *const views[] = {"left", "right", "center", "centre", "l", "r"};
+    for (size_t i = 0; i < COUNT(views); i++)
+        if (same_text(text, length, views[i]))
+            return true;
+    return false;
+}
+
+static const char *piece_before(const char *name, const char *end)
+{
+    while (end > name && end[-1] != '.')
+        end--;
+    return end;
+}
+
+/* A layer's name from `name` to `end`, without its component. */
+static split_name split_layer(const char *name, const char *end)
+{
+    split_name s = {.view = end, .component = ""};
+    const char *layer = piece_before(name, end);
+    /* A view stands behind a layer; alone it may be a part's name. */
+    if (layer > name && is_view(layer, (size_t)(end - layer))) {
+        s.view = layer;
+        s.view_length = (size_t)(end - layer);
+        end = layer - 1;
+        layer = piece_before(name, end);
+    }
+    s.layer = layer;
+    s.prefix = (size_t)(layer - name);
+    s.layer_length = (size_t)(end - layer);
+    return s;
+}
+
 /* The component is the last piece, or empty if the layer is itself a channel. */
 static split_name split(const char *name, bool with_component)
 {
-    const char *end = name + strlen(name);
     const char *dot = with_component ? strrchr(name, '.') : NULL;
-    const char *layer_end = dot ? dot : end;
-    const char *layer = layer_end;
-    while (layer > name && layer[-1] != '.')
-        layer--;
-    return (split_name){.layer = layer,
-                        .prefix = (size_t)(layer - name),
-                        .layer_length = (size_t)(layer_end - layer),
-                        .component = dot ? dot + 1 : ""};
+    split_name s = split_layer(name, dot ? dot : name + strlen(name));
+    s.component = dot ? dot + 1 : "";
+    return s;
+}
+
+/* The rank of a layer in the rows of its kind, or -1. */
+static int row_of(const split_name *s, bool is_normal)
+{
+    int rank = 0;
+    for (size_t i = 0; i < io_convention_count; i++) {
+        if (io_conventions[i].is_normal != is_normal)
+            continue;
+        if (same_text(s->layer, s->layer_length, io_conventions[i].name))
+            return rank;
+        rank++;
+    }
+    return -1;
 }
 
 /* Whether the channel "BASE.letter" exists, BASE being name without its component. */
@@ -103,30 +112,73 @@ static bool has_sibling(const io_image *image, const char *name, const char *let
     return false;
 }
 
-enum { NO_MATCH = 1 << 20 };
+/* Ranks: lower is better. Names of the table come first, then names that look like it. */
+enum {
+    LOOKS_LIKE = 1 << 16,
+    ANY_Z = 1 << 18,
+    FOR_DENOISER, /* sees through mirrors */
+    ONLY_CHANNEL,
+    NO_MATCH = 1 << 20
+};
+
+static int component_rank(const char *component)
+{
+    for (size_t c = 0; c < COUNT(depth_components); c++)
+        if (!strcasecmp(component, depth_components[c]))
+            return (int)c;
+    return -1;
+}
+
+/* Right eyes come after left ones, and layers with a prefix after those without. */
+static int tail_rank(const split_name *s)
+{
+    return (s->view_length && tolower((unsigned char)s->view[0]) == 'r' ? 2 : 0)
+           + (s->prefix ? 1 : 0);
+}
 
 static int depth_rank_of(const char *name, bool with_component)
 {
     const split_name s = split(name, with_component);
-    if (with_component == !s.component[0])
+    const int component = component_rank(s.component), row = row_of(&s, false);
+    if (with_component == !s.component[0] || component < 0)
         return NO_MATCH;
-    for (size_t layer = 0; layer < COUNT(depth_layers); layer++)
-        for (size_t c = 0; c < COUNT(depth_components); c++)
-            if (same_text(s.layer, s.layer_length, depth_layers[layer])
-                && !strcasecmp(s.component, depth_components[c]))
-                return 1 + (int)((layer * COUNT(depth_components) + c) * 2)
-                       + (s.prefix ? 1 : 0);
-    return NO_MATCH;
+    if (contains(s.layer, s.layer_length, "denois"))
+        return FOR_DENOISER;
+    /* Whose Z "shadow.Z" is, nobody knows. */
+    if (!with_component && s.prefix && same_text(s.layer, s.layer_length, "Z"))
+        return NO_MATCH;
+    const int rank =
+        1 + ((row < 0 ? 0 : row) * (int)COUNT(depth_components) + component) * 4
+        + tail_rank(&s);
+    if (row >= 0)
+        return rank;
+    return contains(s.layer, s.layer_length, "depth") ? LOOKS_LIKE + rank : NO_MATCH;
 }
 
-/* Lower is better. */
+/* Of x, y, z without dots: Px, Py, Pz are a position, as pbrt writes it. */
+static bool is_of_vector(const io_image *image, const char *name)
+{
+    char other[IO_NAME_SIZE];
+    const size_t length = strlen(name);
+    if (length < 2 || !strchr("Zz", name[length - 1]) || strchr(name, '.'))
+        return false;
+    for (int32_t i = 0; i < image->channel_count; i++) {
+        snprintf(other, sizeof other, "%s", image->channels[i].name);
+        if (strlen(other) == length && !strncasecmp(other, name, length - 1)
+            && strchr("Xx", other[length - 1]))
+            return true;
+    }
+    return false;
+}
+
 static int depth_rank(const io_image *image, const char *name)
 {
     const split_name s = split(name, true);
     const bool is_z = !strcasecmp(s.component, "Z");
     if (!strcasecmp(name, "Z"))
         return 0;
-    if (is_z && has_sibling(image, name, "X")) /* of a vector */
+    /* Of a vector. */
+    if ((is_z && has_sibling(image, name, "X")) || is_of_vector(image, name))
         return NO_MATCH;
     const int with = depth_rank_of(name, true), without = depth_rank_of(name, false);
     const int rank = with < without ? with : without;
@@ -134,9 +186,9 @@ static int depth_rank(const io_image *image, const char *name)
         return rank;
     /* "Anything.Z" is depth; Blender's mist is not. */
     if (is_z && !same_text(s.layer, s.layer_length, "mist"))
-        return NO_MATCH - 2;
+        return ANY_Z;
     if (image->channel_count == 1 && (!strcasecmp(name, "Y") || !strcasecmp(name, "V")))
-        return NO_MATCH - 1;
+        return ONLY_CHANNEL;
     return NO_MATCH;
 }
 
@@ -212,6 +264,12 @@ static int choose_depth(const char *path, const io_image *probed,
                            : find_depth(path, probed, request, log);
     out->layers = 1;
     out->layer_kind = CRV_LAYERS_SURFACES;
+    if (!wanted && out->depth[0] && io_keeps_windows(path)
+        && !strcasecmp(out->depth[0], "Y"))
+        return io__fail(log, path,
+                        "its only channel, Y, is luminance by the rules of EXR; if it is "
+                        "depth, %s",
+                        depth_remedy(request));
     if (!out->depth[0] && wanted)
         return io__fail_channel(log, path, wanted, probed);
     if (!out->depth[0]) {
@@ -268,34 +326,26 @@ static size_t normal_base_length(const char *name)
     return length >= 2 && (last == 'X' || last == 'x') ? length - 1 : 0;
 }
 
-/* The length of what stands before the layer of a depth, its dot included. Of "right.Z"
- * that is all but the Z: "right" is no name for depth, but a view or a layer. */
-static size_t depth_prefix_length(const char *depth)
+/* Whether the normals are of the depth's part or view layer, and of its eye. Of "right.Z"
+ * the prefix is "right": that is no name for depth, but a view or a layer. */
+static bool is_together(const char *depth, const char *name, const split_name *normal)
 {
     const split_name s = split(depth, true);
-    if (!s.component[0] || depth_rank_of(depth, true) < NO_MATCH)
-        return s.prefix;
-    return s.prefix + s.layer_length + 1;
-}
-
-static bool is_together(const char *depth, const char *name, size_t prefix)
-{
-    return prefix == depth_prefix_length(depth) && !strncasecmp(name, depth, prefix);
+    const bool named = !s.component[0] || depth_rank_of(depth, true) < NO_MATCH;
+    const size_t prefix = named ? s.prefix : s.prefix + s.layer_length + 1;
+    return prefix == normal->prefix && !strncasecmp(name, depth, prefix)
+           && s.view_length == normal->view_length
+           && !strncasecmp(s.view, normal->view, s.view_length);
 }
 
 static int normal_rank(const char *name, size_t length, const char *depth)
 {
-    const char *layer = name + length;
-    while (layer > name && layer[-1] != '.')
-        layer--;
-    const size_t prefix = (size_t)(layer - name);
-    for (size_t i = 0; i < COUNT(normal_layers); i++)
-        if (same_text(layer, length - prefix, normal_layers[i])) {
-            /* Of the same view layer as the depth, if possible. */
-            return (is_together(depth, name, prefix) ? 0 : (int)COUNT(normal_layers))
-                   + (int)i;
-        }
-    return NO_MATCH;
+    const split_name s = split_layer(name, name + length);
+    const int apart = is_together(depth, name, &s) ? 0 : (int)io_convention_count;
+    const int row = row_of(&s, true);
+    if (row >= 0)
+        return apart + row;
+    return contains(s.layer, s.layer_length, "normal") ? LOOKS_LIKE + apart : NO_MATCH;
 }
 
 static void find_normals(const char *path, const io_image *probed,
@@ -317,7 +367,7 @@ static void find_normals(const char *path, const io_image *probed,
         memcpy(out->normal, found, sizeof found);
         snprintf(out->normal_base, sizeof out->normal_base, "%.*s", (int)length, name);
     }
-    if (matches && best_rank >= (int)COUNT(normal_layers))
+    if (matches && best_rank % LOOKS_LIKE >= (int)io_convention_count)
         io__warn(log, path, "normals \"%s\" are of another layer than depth \"%s\"; %s",
                  out->normal_base, out->depth[0], normal_remedy(request));
     if (matches > 1)

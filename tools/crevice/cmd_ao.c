@@ -432,7 +432,8 @@ const command command_ao = {
     .details =
         "What lies in the frame's overscan occludes but gets no result. Without a "
         "radius, 5 % of the view's height at the median depth is taken; a range of "
-        "frames keeps that of its first.",
+        "frames keeps that of its first. `crevice help passes` lists the passes that are "
+        "known by name.",
     .tables = tables,
     .library_options = true,
     .examples = examples,

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "commands.h"
+#include "help_passes.h"
 #include "common/help.h"
 #include "common/manual.h"
 #include "common/nearest.h"
@@ -75,6 +76,10 @@ static int help(int argc, char **argv, report *r)
     }
     if (strncmp(argv[0], "--", 2) == 0)
         return help_as_pages(argc, argv, r);
+    if (strcmp(argv[0], "passes") == 0) {
+        help_passes(stdout);
+        return EXIT_DONE;
+    }
     const command *c = find_command(argv[0], r);
     if (!c)
         return EXIT_USAGE;

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT */
+/* conventions.h: how renderers name and write depth and normals, one row each. */
+#ifndef CREVICE_IO_PASSES_CONVENTIONS_H
+#define CREVICE_IO_PASSES_CONVENTIONS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* A text that is NULL is not fixed by the renderer: the frame's numbers tell. */
+typedef struct io_convention {
+    const char *renderer;
+    bool is_normal;         /* else depth */
+    const char *name;       /* of the layer, as in NAME.Z, PREFIX.NAME.R or NAMEX */
+    const char *encoding;   /* what the numbers mean */
+    const char *unit;       /* of depth */
+    const char *background; /* what stands where nothing is seen */
+    const char *axes;       /* space and handedness of normals */
+} io_convention;
+
+/* All rows, names of one kind in order of preference. */
+extern const io_convention io_conventions[];
+extern const size_t io_convention_count;
+
+#endif

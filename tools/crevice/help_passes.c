@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: MIT */
+/* help_passes.c: `crevice help passes`, the renderers' passes that are known by name. */
+#include "help_passes.h"
+
+#include "passes/conventions.h"
+
+static void print_rows(FILE *out, bool normals)
+{
+    for (size_t i = 0; i < io_convention_count; i++) {
+        const io_convention *row = &io_conventions[i];
+        if (row->is_normal != normals)
+            continue;
+        fprintf(out, "  %-38s %s", row->name, row->renderer);
+        const char *const facts[] = {row->encoding, row->unit, row->background,
+                                     row->axes};
+        const char *const words[] = {"", "unit: ", "background: ", "axes: "};
+        for (int k = 0; k < 4; k++)
+            if (facts[k])
+                fprintf(out, "; %s%s", words[k], facts[k]);
+        fprintf(out, "\n");
+    }
+}
+
+void help_passes(FILE *out)
+{
+    fprintf(out, "Passes that `crevice ao` knows by name, in order of preference. A name "
+                 "may have a prefix\n(ViewLayer.Depth.Z), an eye (Depth.left.Z) and any "
+                 "case. What a row does not say is found\nfrom the frame: the normals "
+                 "that depth implies must agree with those that are given.\n\nDepth, as "
+                 "NAME.Z, .V, .R, .T or a channel itself:\n");
+    print_rows(out, false);
+    fprintf(out, "\nNormals, as NAME.X .Y .Z, .R .G .B or NAMEX NAMEY NAMEZ:\n");
+    print_rows(out, true);
+    fprintf(out, "\nOther names are taken if they contain \"depth\" or \"normal\"; "
+                 "--depth and --normal choose any.\n");
+}
