@@ -53,7 +53,7 @@ typedef struct crv__pixels {
     vm active;    /* lanes whose result counts; the others hold no surface */
     vf depth;     /* layer 0; 1 where not active */
     crv__v3 P, n; /* surface point and normal; n = (0, 0, 1) where not active */
-    vf cos_alpha, sin_alpha, beta; /* of the noise tile */
+    vf cos_alpha, sin_alpha, beta, sector_offset; /* of the noise tile */
     const float
         *points; /* the pattern's points, or the directions, `stride` floats each */
     int32_t stride;
@@ -90,17 +90,19 @@ CRV__INLINE void crv__lanes_noise(const crv__frame *f, crv__pixels *at, int32_t 
     const crv__params *p = f->params;
     const crv__noise_texel *row =
         f->noise + (y + p->noise_y) % p->noise_size * p->noise_size;
-    float lanes[3][CRV__LANES];
+    float lanes[4][CRV__LANES];
     int32_t column = (x + p->noise_x) % p->noise_size;
     for (int32_t i = 0; i < CRV__LANES; i++) {
         lanes[0][i] = row[column].cos_alpha;
         lanes[1][i] = row[column].sin_alpha;
         lanes[2][i] = row[column].beta;
+        lanes[3][i] = row[column].sector_offset;
         column = column + 1 < p->noise_size ? column + 1 : 0;
     }
     at->cos_alpha = vf_load(lanes[0]);
     at->sin_alpha = vf_load(lanes[1]);
     at->beta = vf_load(lanes[2]);
+    at->sector_offset = vf_load(lanes[3]);
 }
 
 /* Surface and normals of the pixels from (x, y) on, `count` of them, at most

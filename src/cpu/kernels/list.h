@@ -3,6 +3,7 @@
  * a kernel in the deinterleaved structure (deinterleaved.h). */
 CRV__ESTIMATE(alchemy)
 CRV__ESTIMATE(containment)
+CRV__ESTIMATE(gtao)
 CRV__ESTIMATE(hbao)
 CRV__ESTIMATE(hsao)
 CRV__ESTIMATE(raymarch)
