@@ -7,6 +7,8 @@
  */
 #include "deinterleaved_reference.h"
 
+#include "deinterleaved_samples.h"
+
 #include "core/falloff.h"
 #include "core/gbuffer.h"
 #include "core/setup.h"
@@ -36,6 +38,12 @@ static int is_surface(const reference *s, int32_t x, int32_t y)
            && *crv__plane_at(&s->frame.depth[0], x, y) < s->background;
 }
 
+/* Whether a method marches in directions; others have the points of a pattern. */
+static bool in_slices(const crv_options *options)
+{
+    return !crv__method_of(options->method)->pattern_fill;
+}
+
 /* Buckets of an octave. */
 static int32_t fineness(const simd_case *c)
 {
@@ -63,14 +71,13 @@ static float radius_at(const reference *s, int32_t x, int32_t y)
 static int32_t bucket_at(const reference *s, int32_t x, int32_t y)
 {
     const crv__params *p = &s->params;
-    const int in_slices = strcmp(s->c->options.method->name, "hbao") == 0;
     if (!is_surface(s, x, y))
         return -1;
     float radius = radius_at(s, x, y);
     const int32_t parts = fineness(s->c);
     if (!(radius < 0.5f * (1 << OCTAVES) * exp2f(-0.5f / (float)parts) * 0.99f))
         return -1;
-    if (in_slices) {
+    if (in_slices(&s->c->options)) {
         const float cap =
             p->fx > p->fy ? p->max_radius_px * (p->fy / p->fx) : p->max_radius_px;
         radius = fminf(radius, cap);
@@ -149,18 +156,6 @@ static float vo(const reference *s, int32_t x, int32_t y, float radius)
     return total > 0 ? fminf(1, 2 * open / total) : 1;
 }
 
-/* Where a sample is: of a step in pixels, rounded to the nearest texel and, where it
- * leads 32 pixels to a side or more, to one a multiple of 4 away. */
-static void to_texel(float across, float down, float step[2])
-{
-    step[0] = floorf(across + 0.5f);
-    step[1] = floorf(down + 0.5f);
-    if (fabsf(step[0]) < 32 && fabsf(step[1]) < 32)
-        return;
-    step[0] = 4 * rintf(step[0] / 4);
-    step[1] = 4 * rintf(step[1] / 4);
-}
-
 /* The surface at a step from (x, y) in a layer; INFINITY where there is none. */
 static float depth_at(const reference *s, int32_t layer, int32_t x, int32_t y,
                       const float step[2])
@@ -216,8 +211,8 @@ static float hbao(const reference *s, int32_t x, int32_t y, float radius)
         for (int32_t i = 0; i < p->steps; i++) {
             float t = ((float)i + 0.5f + 0.5f * noise->beta) / (float)p->steps, step[2];
             t *= p->spacing == CRV_SPACING_QUADRATIC ? t : 1;
-            to_texel(t * (to.x * (radius * (p->fx * p->inv_fy))), t * (-to.y * radius),
-                     step);
+            reference_texel(t * (to.x * (radius * (p->fx * p->inv_fy))),
+                            t * (-to.y * radius), step);
             const crv__vec3 offset = {step[0] * p->inv_fx, -step[1] * p->inv_fy, 0};
             for (int32_t layer = 0; layer < p->layers && !(step[0] == 0 && step[1] == 0);
                  layer++) {
@@ -252,7 +247,7 @@ static float alchemy(const reference *s, int32_t x, int32_t y, float radius)
         const crv__vec2 disk =
             crv__turned(noise, s->frame.pattern[4 * i], s->frame.pattern[4 * i + 1]);
         float step[2];
-        to_texel(disk.x * (radius * (p->fx * p->inv_fy)), -disk.y * radius, step);
+        reference_texel(disk.x * (radius * (p->fx * p->inv_fy)), -disk.y * radius, step);
         for (int32_t layer = 0; layer < p->layers && !(step[0] == 0 && step[1] == 0);
              layer++) {
             const float z = depth_at(s, layer, x, y, step);
@@ -276,10 +271,11 @@ static float alchemy(const reference *s, int32_t x, int32_t y, float radius)
 static int has_structure(const simd_case *c)
 {
     const crv_options *o = &c->options;
-    const int in_slices = strcmp(o->method->name, "hbao") == 0;
-    const int32_t samples = in_slices ? o->directions * o->steps : o->samples;
-    const int paired = strcmp(o->method->name, "alchemy") != 0
-                       && (in_slices ? o->directions : o->samples) % 2 == 0;
+    const bool slices = in_slices(o);
+    const int32_t samples = slices ? o->directions * o->steps : o->samples;
+    const bool paired =
+        (strcmp(o->method->name, "hbao") == 0 || strcmp(o->method->name, "vo") == 0)
+        && (slices ? o->directions : o->samples) % 2 == 0;
     const double table = 48.0 * samples / (1 + paired) * 16 * OCTAVES * fineness(c);
     return (o->noise_size == 1 || o->noise_size == 2 || o->noise_size == 4)
            && c->desc.layers <= (crv__method_of(o->method)->volumetric ? 1 : 3)
@@ -299,6 +295,8 @@ static float value_at(reference *s, int32_t x, int32_t y, int structure, int *ha
                         : 0;
         if (!*has_bucket)
             a = crv__method_of(s->c->options.method)->accessibility(&s->frame, x, y);
+        else if (strcmp(name, "gtao") == 0)
+            a = reference_gtao(&s->frame, x, y, radius);
         else if (strcmp(name, "vo") == 0)
             a = vo(s, x, y, radius);
         else

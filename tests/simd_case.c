@@ -138,7 +138,8 @@ static crv_camera random_camera(simd_random *r, const crv_gbuffer_desc *desc)
 /*
  * Squares of lengths below 1e-19 are denormal, and estimates of their roots know no such
  * numbers: no scene is that small. Of vao's spheres the eye must not be a part of the
- * surface, or rounding decides whether they are in front of it.
+ * surface, or rounding decides whether they are in front of it; nor of slices through the
+ * eye, or rounding decides on which side of P it is.
  */
 static float nonsense(simd_random *r, const simd_case *c, float d)
 {
@@ -148,7 +149,10 @@ static float nonsense(simd_random *r, const simd_case *c, float d)
         return d;
     const float value = values[simd_int(r, 0, 11)];
     const int at_eye = value > 0 && value < 1e-3f * d;
-    return at_eye && strcmp(c->options.method->name, "vao") == 0 ? d : value;
+    const char *name = c->options.method->name;
+    const bool is_excluded = strcmp(name, "vao") == 0 || strcmp(name, "gtao") == 0
+                             || strcmp(name, "bitmask") == 0;
+    return at_eye && is_excluded ? d : value;
 }
 
 static void fill_layer(simd_random *r, const simd_case *c, float *out, simd_scene scene,

@@ -11,9 +11,14 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const METHODS[] = {"hbao", "alchemy", "vo"};
+static const char *const METHODS[] = {"hbao", "gtao", "alchemy", "vo"};
 
-enum { CASES = 60, SIZE = 150, SETS = 5 };
+enum {
+    METHOD_COUNT = sizeof METHODS / sizeof METHODS[0],
+    CASES = 60,
+    SIZE = 150,
+    SETS = 5
+};
 
 /* Runs a case with noise tiles that the structure takes. */
 static simd_case *make_case(const char *method, int32_t index)
@@ -27,6 +32,10 @@ static simd_case *make_case(const char *method, int32_t index)
     c->options.noise_size = TILES[index / SIMD_SCENES % 4];
     if (c->desc.layers > 3 || (strcmp(method, "vo") == 0 && index % 3))
         c->desc.layers = 1; /* others are computed exactly */
+    /* Of a single slice all may be rounding: those seen at grazing angles have a measure
+     * near 0, which counts little beside the others'. */
+    if (strcmp(method, "gtao") == 0 && c->options.directions == 1)
+        c->options.directions = 2;
     c->exact = 0;
     return c;
 }
@@ -78,7 +87,7 @@ static void count_by_set(const simd_case *c, int32_t index, const float *expecte
 static void sets_compute_the_reference(void **state)
 {
     (void)state;
-    for (int m = 0; m < 3; m++) {
+    for (int m = 0; m < METHOD_COUNT; m++) {
         int64_t pixels = 0, structured = 0, beyond[SETS] = {0};
         for (int32_t i = 0; i < CASES; i++) {
             simd_case *c = make_case(METHODS[m], i);
@@ -115,7 +124,7 @@ static void the_mean_is_the_exact_one(void **state)
     static const double ONE = 1;
     const crv_camera camera = crv_camera_perspective(WIDTH, HEIGHT, 0.8f);
     fixture f = fixture_make(fixture_spheres, &ONE, &camera, WIDTH, HEIGHT);
-    for (int m = 0; m < 3; m++) {
+    for (int m = 0; m < METHOD_COUNT; m++) {
         crv_options options = fixture_options(METHODS[m]);
         options.filter = NULL;
         options.radius = 0.7f;
@@ -147,7 +156,7 @@ static void many_samples_converge_to_the_exact_value(void **state)
     static const double GROOVE[] = {5};
     const crv_camera camera = crv_camera_orthographic(EDGE, EDGE, 4);
     fixture f = fixture_make(fixture_groove, GROOVE, &camera, EDGE, EDGE);
-    for (int m = 0; m < 3; m++) {
+    for (int m = 0; m < METHOD_COUNT; m++) {
         crv_options options = fixture_options(METHODS[m]);
         options.filter = NULL;
         options.radius = 1;

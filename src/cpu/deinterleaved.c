@@ -204,15 +204,15 @@ static void fill_sample(const crv__deinterleaved *di, const crv__params *p, int3
     const float x = du * p->inv_fx, y = -dv * p->inv_fy;
     const float squared = x * x + y * y, length = sqrtf(squared);
     const float cosine = length > 0 ? x / length : 0, sine = length > 0 ? y / length : 0;
-    *sample = (crv__sample){2 * x,
-                            2 * y,
-                            squared,
-                            -2 * squared,
-                            cosine,
-                            sine,
-                            cosine * cosine - sine * sine,
-                            2 * cosine * sine};
-    *place = (crv__sample_place){{0, 0}, {CRV__SHIFT_OFF, CRV__SHIFT_OFF}, 0, 0};
+    *sample = (crv__sample){.x2 = 2 * x,
+                            .y2 = 2 * y,
+                            .squared = squared,
+                            .minus_squared2 = -2 * squared,
+                            .cosine = cosine,
+                            .sine = sine,
+                            .cosine2 = cosine * cosine - sine * sine,
+                            .sine2 = 2 * cosine * sine};
+    *place = (crv__sample_place){.shift = {CRV__SHIFT_OFF, CRV__SHIFT_OFF}};
     if (!(fabsf(du) < CRV_MAX_SIZE && fabsf(dv) < CRV_MAX_SIZE))
         return;
     place->dv = (int16_t)dv;
@@ -240,6 +240,29 @@ static void extend(crv__list_footprint *footprint, const crv__sample_place *plac
     }
 }
 
+static float spaced(const crv__params *p, float t)
+{
+    t /= (float)p->steps;
+    return p->spacing == CRV_SPACING_QUADRATIC ? t * t : t;
+}
+
+/* The share of a slice's length in pixels at which its sample i lies: a pixel at least
+ * (methods/slice.h). */
+static float jittered_share(const crv__params *p, const crv__noise_texel *noise,
+                            int32_t k, int32_t i, float length_px)
+{
+    const float t = spaced(p, (float)i + crv__stratum(noise, k));
+    return t * length_px > 1 ? t : 1 / length_px;
+}
+
+/* What a jittered method's sample stands for, as methods/slice.h has it. */
+static void fill_cell(const crv__params *p, int32_t i, float share, float length_px,
+                      crv__sample *sample)
+{
+    sample->near = fminf(1, fmaxf(0.5f / length_px, spaced(p, (float)i)) / share);
+    sample->far = fmaxf(1, spaced(p, (float)(i + 1)) / share);
+}
+
 /* The step to sample i of slice k in pixels, to the right and down, as the methods have
  * it, or, without slices, to point i; distant ones on the grid of the pixel's phase.
  * Radii in pixels. */
@@ -250,7 +273,10 @@ static void step_to(const crv__deinterleaved_method *method, const crv__frame *f
     const crv__params *p = f->params;
     crv__vec2 to;
     float t = 1;
-    if (method->in_slices) {
+    if (method->jittered) {
+        to = crv__direction(f, noise, k);
+        t = jittered_share(p, noise, k, i, hypotf(to.x * radius_x, to.y * radius_y));
+    } else if (method->in_slices) {
         to = crv__direction(f, noise, k);
         t = ((float)i + 0.5f + 0.5f * noise->beta) / (float)p->steps;
         if (p->spacing == CRV_SPACING_QUADRATIC)
@@ -266,6 +292,18 @@ static void step_to(const crv__deinterleaved_method *method, const crv__frame *f
         for (int32_t axis = 0; axis < 2; axis++)
             step[axis] = CRV__PHASES * rintf(step[axis] / CRV__PHASES);
     }
+}
+
+/* What only jittered methods have of a sample. */
+static void fill_jittered(const crv__frame *f, const crv__noise_texel *noise, int32_t k,
+                          int32_t i, float radius, const float step[2],
+                          crv__sample *sample, crv__sample_place *place)
+{
+    const crv__params *p = f->params;
+    const crv__vec2 to = crv__direction(f, noise, k);
+    const float length = hypotf(to.x * (radius * (p->fx * p->inv_fy)), to.y * radius);
+    fill_cell(p, i, jittered_share(p, noise, k, i, length), length, sample);
+    place->du = (int16_t)fmaxf(fminf(step[0], INT16_MAX), INT16_MIN);
 }
 
 /* One list: the samples of one bucket and phase. */
@@ -295,6 +333,9 @@ static void fill_list(const fill_job *job, uint32_t index)
             fill_sample(di, p, phase, step[0], step[1], &di->samples[first + count],
                         place);
             place->index = (int16_t)i;
+            if (method->jittered)
+                fill_jittered(job->frame, noise, k, i, radius, step,
+                              &di->samples[first + count], place);
             extend(&footprint, place);
             count++;
         }
@@ -332,6 +373,7 @@ const crv__deinterleaved *crv__deinterleaved_prepare(crv__deinterleaved_state *s
     s->di.cap = !s->method->in_slices ? INFINITY
                 : p->fx > p->fy       ? p->max_radius_px * (p->fy / p->fx)
                                       : p->max_radius_px;
+    s->di.extends = s->method->jittered && p->border != CRV_BORDER_BACKGROUND;
     s->di.background = p->orthographic ? 1e18f : 1024 * p->radius * p->fy;
     crv__run_parallel(setup->context, (uint32_t)(p->height + 15) / 16, deinterleave_rows,
                       &job);

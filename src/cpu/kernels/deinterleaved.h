@@ -22,6 +22,8 @@
 
 #include "core/frame.h"
 
+#include <stdbool.h>
+
 enum {
     CRV__PHASES = 4, /* along each axis */
     CRV__GROUP_PIXELS = 16,
@@ -39,8 +41,15 @@ typedef struct crv__sample {
     float x2, y2;         /* 2 o */
     float squared;        /* o.o */
     float minus_squared2; /* -2 o.o */
-    float cosine, sine;   /* o / |o|; 0 where o is 0 */
-    float cosine2, sine2; /* of twice the angle */
+    union {
+        struct {
+            float cosine, sine;   /* o / |o|; 0 where o is 0 */
+            float cosine2, sine2; /* of twice the angle */
+        };
+        struct {
+            float near, far; /* jittered: ends of the sample's cell over its distance */
+        };
+    };
 } crv__sample;
 
 /* Where a sample and the one opposite to it are, from a pixel on. */
@@ -48,7 +57,10 @@ typedef struct crv__sample_place {
     int32_t offset[2]; /* floats from the pixel's place in its plane */
     int16_t shift[2];  /* of which along the row */
     int16_t dv;        /* rows down; the opposite one as many up */
-    int16_t index;     /* of the point in its pattern */
+    union {
+        int16_t index; /* of the point in its pattern */
+        int16_t du;    /* jittered: columns to the right */
+    };
 } crv__sample_place;
 
 /* Over all samples of a list, opposite ones included. */
@@ -76,6 +88,7 @@ typedef struct crv__deinterleaved {
     int32_t shift;  /* of a radius' bits to its bucket */
     float cap;      /* of the radius, vertically, pixels */
     float largest;  /* projected radius that has a bucket in every phase, pixels */
+    bool extends;   /* samples off the picture are not all background */
     int32_t paired; /* 0 or 1: every slice has one opposite to it */
     crv__sample *samples;
     crv__sample_place *places;

@@ -18,9 +18,10 @@ typedef struct crv__group_pixels {
     const crv__frame *frame;
     const crv__deinterleaved *di;
     const float *own;  /* their place in layer 0 */
-    int32_t y, m;      /* the group's row and column in its plane */
+    int32_t y, m, px;  /* the group's row, and column and phase in its plane */
     int32_t at_border; /* whether samples may be off the picture */
     int32_t off;       /* where those are then, from `own` on */
+    vi x;              /* columns */
     vf depth, inverse; /* planar depth, and 1 over it */
     vf ray_x, ray_y;   /* the view ray (x, y, -1), or (0, 0, -1) */
     crv__v3 n;
@@ -52,7 +53,7 @@ CRV__INLINE vf crv__span_pick(const float *from, int32_t phase)
     return parts[phase];
 }
 
-/* The list of a bucket for a phase; sets whether `at` is at_border the border for it. */
+/* The list of a bucket for a phase; sets whether its samples may be off the picture. */
 CRV__INLINE crv__list crv__list_at(crv__group_pixels *at, int32_t bucket, int32_t phase)
 {
     const crv__deinterleaved *di = at->di;
@@ -63,6 +64,10 @@ CRV__INLINE crv__list crv__list_at(crv__group_pixels *at, int32_t bucket, int32_
                     || at->y + footprint.rows >= at->frame->params->height
                     || at->m + footprint.shift_min <= -CRV__GROUP_PIXELS
                     || at->m + footprint.shift_max >= di->columns;
+    if (di->extends) /* one lane off the picture is enough */
+        at->at_border |= at->m + footprint.shift_min <= di->left / CRV__PHASES
+                         || at->m + CRV__GROUP_PIXELS + footprint.shift_max
+                                >= (di->left + at->frame->params->width) / CRV__PHASES;
     return (crv__list){di->samples + first, di->places + first,
                        di->counts + (ptrdiff_t)index * di->slices, footprint.radius};
 }
@@ -213,9 +218,10 @@ CRV__INLINE void crv__group_pass(crv__group_pixels *at, const crv__list *list,
         at->depth = vf_load(depth + i);
         at->inverse = vf_load(group->inverses + i);
         at->n = crv__group_normal(normal, px, i);
-        const vf column = vf_of(vi_set(x + 4 * i) + vi_iota() * vi_set(4));
-        at->ray_x = p->orthographic ? vf_zero()
-                                    : (column + vf_set(0.5f - p->cx)) * vf_set(p->inv_fx);
+        at->x = vi_set(x + 4 * i) + vi_iota() * vi_set(4);
+        at->ray_x = p->orthographic
+                        ? vf_zero()
+                        : (vf_of(at->x) + vf_set(0.5f - p->cx)) * vf_set(p->inv_fx);
         const vf a = method(at, list);
         const vf shown = vf_clamp01(one - intensity * (one - a));
         vf_store(result + i, vf_select(mine, shown, vf_load(result + i)));
@@ -324,6 +330,7 @@ CRV__INLINE int crv__tile_run(const crv__frame *f, const crv__deinterleaved *di,
     at.di = di;
     out.plane = plane;
     for (int32_t px = 0; px < CRV__PHASES; px++) {
+        at.px = px;
         for (int32_t y = tile->y0, row = 0; y < tile->y1; y += CRV__PHASES, row++) {
             at.y = y;
             beyond |= crv__tile_row(&at, tile, px, row, &out, method);

@@ -31,11 +31,12 @@ typedef void (*crv__filter_kernel)(const crv__frame *frame, const crv__plane *in
 /* A method's kernel in the di structure, and its samples. 0 or 1 each: slices of steps
  * in directions, not the points of a pattern; an even number of directions or points
  * comes in opposite pairs; steps are rounded to even, not half up; those to the pixel
- * itself are kept; those of 32 pixels or more are rounded to multiples of the tile's 4.
+ * itself are kept; those of 32 pixels or more are rounded to multiples of the tile's 4;
+ * every slice has a jitter of its own, and steps of a pixel at least.
  * Projected radii are quantised to 2^fineness buckets an octave. */
 typedef struct crv__deinterleaved_method {
     crv__deinterleaved_kernel run;
-    bool in_slices, in_pairs, is_rounded, keeps_centre, far_on_grid;
+    bool in_slices, in_pairs, is_rounded, keeps_centre, far_on_grid, jittered;
     int32_t fineness;
 } crv__deinterleaved_method;
 

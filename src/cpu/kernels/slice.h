@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* methods/slice.h for the lanes of a vector: slices through the eye. All is rounded as
- * there, because a small difference is a large one at grazing angles, where a is small. */
+ * there: a small difference is a large one at grazing angles, where a is small. */
 #ifndef CRV_CPU_KERNELS_SLICE_H
 #define CRV_CPU_KERNELS_SLICE_H
 

@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * methods/slice.h in the deinterleaved structure.
+ *
+ * All is measured in units of the pixel's own depth d (perspective; orthographic: scene
+ * units). With k = 1 - ds/d a sample at the step o of the image plane at unit depth is
+ * v = o - k (ray + o). T is at right angles to the ray, so that on the slice
+ *
+ *     x = (1 - k) T.o     z = (v.n - b x)/a = q + k (g - q)
+ *     q = (n.o - b T.o)/a = c.o     g = |ray| (n.V)/a
+ *
+ * and orthographic, with k = d - ds, x = T.o and z = q + k g, g = (n.V)/a.
+ */
+#ifndef CRV_CPU_KERNELS_SLICE_GROUPS_H
+#define CRV_CPU_KERNELS_SLICE_GROUPS_H
+
+#include "cpu/kernels/groups.h"
+#include "cpu/kernels/slice.h"
+
+/* What does not change from slice to slice. */
+typedef struct crv__slice_view {
+    const crv__params *params;
+    const crv__noise_texel *noise; /* all lanes' */
+    vf scale, origin;              /* k = origin - scale * ds */
+    vf radius, radius2, inverse_radius;
+    vf a, inverse_a, g;
+    crv__v3 V;
+} crv__slice_view;
+
+/* What does not change from sample to sample. */
+typedef struct crv__group_slice {
+    vf half_Tx, half_Ty, half_cx, half_cy;
+    vf b, b_over_a, cos_tangent, total, inverse;
+    vf weight; /* times the total */
+} crv__group_slice;
+
+CRV__INLINE crv__slice_view crv__slice_view_of(const crv__group_pixels *at,
+                                               int orthographic)
+{
+    const crv__params *p = at->frame->params;
+    const vf one = vf_set(1), rx = at->ray_x, ry = at->ray_y;
+    const int32_t phase_x = at->px, phase_y = (at->y + at->di->top) & (CRV__PHASES - 1);
+    crv__slice_view w = {.params = p, .origin = one, .scale = one};
+    w.noise =
+        &at->frame
+             ->noise[phase_y % p->noise_size * p->noise_size + phase_x % p->noise_size];
+    w.radius = vf_set(p->radius);
+    w.inverse_radius = vf_set(p->inv_radius);
+    vf length = one;
+    if (orthographic) {
+        w.origin = at->depth;
+        w.V = (crv__v3){vf_zero(), vf_zero(), one};
+    } else {
+        w.scale = at->inverse;
+        w.radius = w.radius * at->inverse;
+        w.inverse_radius = w.inverse_radius * at->depth;
+        const vf squared = vf_fma(rx, rx, vf_fma(ry, ry, one)),
+                 inverse = vf_rsqrt(squared);
+        length = squared * inverse;
+        w.V = (crv__v3){-rx * inverse, -ry * inverse, inverse};
+    }
+    w.radius2 = w.radius * w.radius;
+    const vf facing = crv__v3_dot(at->n, w.V);
+    w.a = vf_max(facing, vf_set(0.02f));
+    w.inverse_a = one / w.a;
+    w.g = length * facing * w.inverse_a;
+    return w;
+}
+
+CRV__INLINE crv__group_slice crv__group_slice_at(const crv__group_pixels *at,
+                                                 const crv__slice_view *w, int32_t k)
+{
+    const float *direction = at->frame->directions + 2 * k;
+    const float ca = w->noise->cos_alpha, sa = w->noise->sin_alpha;
+    const vf one = vf_set(1);
+    const vf Dx = vf_set(direction[0] * ca - direction[1] * sa),
+             Dy = vf_set(direction[0] * sa + direction[1] * ca);
+    crv__group_slice s;
+    const vf DV = vf_fma(Dx, w->V.x, Dy * w->V.y), squared = one - DV * DV;
+    const vf scale = vf_rsqrt(squared);
+    const vf Tx = (Dx - DV * w->V.x) * scale, Ty = (Dy - DV * w->V.y) * scale;
+    s.b = vf_fma(at->n.x, Tx, vf_fma(at->n.y, Ty, -at->n.z * DV * w->V.z * scale));
+    s.b_over_a = s.b * w->inverse_a;
+    const vf half = vf_set(0.5f);
+    s.half_Tx = half * Tx;
+    s.half_Ty = half * Ty;
+    s.half_cx = half * vf_fma(-s.b_over_a, Tx, at->n.x * w->inverse_a);
+    s.half_cy = half * vf_fma(-s.b_over_a, Ty, at->n.y * w->inverse_a);
+    const vf inverse = vf_rsqrt(vf_fma(w->a, w->a, s.b * s.b));
+    s.cos_tangent = -s.b * inverse;
+    s.total = crv__lanes_measure(w->params, w->a, s.b, s.cos_tangent, w->a * inverse);
+    const vm counts = vf_lt(vf_set(1e-7f), s.total);
+    s.inverse = vf_where(counts, one / s.total);
+    s.weight = vf_where(counts, scale * scale * s.total);
+    return s;
+}
+
+/* The point of the slice at a sample with depth ds. */
+CRV__INLINE void crv__group_slice_point(const crv__slice_view *w,
+                                        const crv__group_slice *s,
+                                        const crv__sample *sample, vf depth,
+                                        int orthographic, vf *x, vf *z)
+{
+    const vf x2 = vf_set(sample->x2), y2 = vf_set(sample->y2);
+    const vf k = vf_fma(-depth, w->scale, w->origin);
+    const vf m = vf_fma(x2, s->half_Tx, y2 * s->half_Ty);
+    const vf q = vf_fma(x2, s->half_cx, y2 * s->half_cy);
+    *x = orthographic ? m : vf_fma(-k, m, m);
+    *z = orthographic ? vf_fma(k, w->g, q) : vf_fma(k, w->g - q, q);
+}
+
+/* Depth of a layer at a sample; from the background on there is no surface. */
+CRV__INLINE vf crv__group_slice_depth(const crv__group_pixels *at,
+                                      const crv__sample_place *place, int32_t layer,
+                                      int border)
+{
+    const crv__params *p = at->frame->params;
+    const float *from = crv__sample_at(at, place, 0, border);
+    const vf d = crv__sample_depth(at, from + layer * at->di->layer_pitch);
+    if (!border || layer > 0 || p->border == CRV_BORDER_BACKGROUND
+        || place->shift[0] == CRV__SHIFT_OFF)
+        return d;
+    const vf background = vf_set(at->di->background);
+    const vi u = at->x + vi_set(place->du), v = vi_set(at->y + place->dv);
+    const vm on = vm_and(vi_below(u, vi_set(p->width)), vi_below(v, vi_set(p->height)));
+    const vm off = vm_and(vm_not(on), vf_lt(at->depth, background));
+    if (!vm_any(off))
+        return d;
+    return vf_select(off, vf_min(crv__lanes_beyond(at->frame, u, v, off), background), d);
+}
+
+#endif
