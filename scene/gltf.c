@@ -23,7 +23,7 @@ static const char *const known[] = {"KHR_mesh_quantization",
                                     "MSFT_texture_*",
                                     "KHR_animation_pointer",
                                     "KHR_xmp*",
-                                    "KHR_techniques_webgl"};
+                                    "KHR_technique*"};
 
 static bool is_known(const char *name)
 {

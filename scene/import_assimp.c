@@ -7,12 +7,10 @@
 #include <assimp/cimport.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
-#include <assimp/scene.h>
 
 #include "import_memory.h"
 #include "import_shift.h"
 #include "internal.h"
-#include "part.h"
 
 #define DEFAULT_ALBEDO 0.8
 #define MAX_NODE_DEPTH 512
@@ -22,15 +20,21 @@ typedef struct loader {
     const crv_logger *log;
     const struct aiScene *file;
     mesh mesh;
+    transform root;
+    import_doubts doubts;
 } loader;
+
+transform import_assimp_matrix(const struct aiMatrix4x4 *m)
+{
+    return (transform){{v3((double)m->a1, (double)m->a2, (double)m->a3),
+                        v3((double)m->b1, (double)m->b2, (double)m->b3),
+                        v3((double)m->c1, (double)m->c2, (double)m->c3)},
+                       v3((double)m->a4, (double)m->b4, (double)m->c4)};
+}
 
 static transform transform_of_node(const struct aiNode *node, const transform *parent)
 {
-    const struct aiMatrix4x4 *m = &node->mTransformation;
-    const transform own = {{v3((double)m->a1, (double)m->a2, (double)m->a3),
-                            v3((double)m->b1, (double)m->b2, (double)m->b3),
-                            v3((double)m->c1, (double)m->c2, (double)m->c3)},
-                           v3((double)m->a4, (double)m->b4, (double)m->c4)};
+    const transform own = import_assimp_matrix(&node->mTransformation);
     return transform_compose(parent, &own);
 }
 
@@ -95,6 +99,10 @@ static void add_part(loader *l, const struct aiMesh *part, const transform *t)
     if (!indices || (part->mTextureCoords[0] && !uvs))
         m->failed = true;
     if (!m->failed && triangle_count > 0) {
+        const import_doubts doubts = import_assimp_doubts(l->file, part, t, &l->root);
+        l->doubts.posed |= doubts.posed;
+        l->doubts.rounded |= doubts.rounded;
+        l->doubts.holes |= doubts.holes;
         const mesh_part triangles = {.vertex_count = part->mNumVertices,
                                      .triangle_count = triangle_count,
                                      .positions = &part->mVertices[0].x,
@@ -150,9 +158,8 @@ static void bound_node(const loader *l, const struct aiNode *node,
             bound_node(l, node->mChildren[i], &t, depth + 1, lower, upper);
 }
 
-/* The world transform of the node of this name; false: there is none. */
-static bool find_node(const struct aiNode *node, const struct aiString *name,
-                      const transform *parent, int depth, transform *out)
+static bool find_below(const struct aiNode *node, const struct aiString *name,
+                       const transform *parent, int depth, transform *out)
 {
     const transform t = transform_of_node(node, parent);
     if (node->mName.length == name->length
@@ -162,9 +169,15 @@ static bool find_node(const struct aiNode *node, const struct aiString *name,
     }
     for (unsigned i = 0; node->mChildren && i < node->mNumChildren; i++)
         if (node->mChildren[i] && depth < MAX_NODE_DEPTH
-            && find_node(node->mChildren[i], name, &t, depth + 1, out))
+            && find_below(node->mChildren[i], name, &t, depth + 1, out))
             return true;
     return false;
+}
+
+bool import_assimp_find(const struct aiNode *node, const struct aiString *name,
+                        const transform *parent, transform *out)
+{
+    return find_below(node, name, parent, 0, out);
 }
 
 static vec3 vector_of(const struct aiVector3D *v)
@@ -179,7 +192,7 @@ static void add_cameras(const loader *l, const transform *root, import *out)
         transform t = *root;
         if (!c)
             continue;
-        find_node(l->file->mRootNode, &c->mName, root, 0, &t);
+        import_assimp_find(l->file->mRootNode, &c->mName, root, &t);
         const bool ortho = c->mOrthographicWidth > 0.0f;
         const double aspect = c->mAspect > 0.0f ? (double)c->mAspect : 16.0 / 9.0;
         const scene_camera like = {
@@ -249,21 +262,21 @@ static const struct aiScene *read_file(const char *path, mesh *m, const crv_logg
 
 int import_assimp(const char *path, import *out, const crv_logger *log)
 {
-    transform root = transform_identity();
-    loader l = {.path = path, .log = log};
+    loader l = {.path = path, .log = log, .root = transform_identity()};
     l.file = read_file(path, &l.mesh, log);
     if (!l.file)
         return -1;
-    root.offset = v3_from_double(l.mesh.origin);
+    l.root.offset = v3_from_double(l.mesh.origin);
     if (l.file->mRootNode) {
         vec3 lower = v3(INFINITY, INFINITY, INFINITY), upper = v3_scale(lower, -1.0);
-        bound_node(&l, l.file->mRootNode, &root, 0, &lower, &upper);
-        if (!(v3_length(root.offset) > 0.0))
+        bound_node(&l, l.file->mRootNode, &l.root, 0, &lower, &upper);
+        if (!(v3_length(l.root.offset) > 0.0))
             mesh_choose_origin(&l.mesh, lower, upper);
-        add_node(&l, l.file->mRootNode, &root, 0);
+        add_node(&l, l.file->mRootNode, &l.root, 0);
     }
     if (l.file->mRootNode)
-        add_cameras(&l, &root, out);
+        add_cameras(&l, &l.root, out);
+    import_assimp_tell(&l.doubts, path, log);
     aiReleaseImport(l.file);
     out->mesh = l.mesh;
     return 0;

@@ -99,6 +99,38 @@ static void test_ply_headers(void **state)
         refuse(write_text("header.ply", headers[i]), NULL, "PLY header");
 }
 
+/* What a format means and its reader does not give is told. */
+static void test_holes_that_are_not_read(void **state)
+{
+    messages m;
+    crv_logger log = catch_messages(&m);
+    scene *s = NULL;
+    (void)state;
+    write_text("leaf.mtl", "newmtl leaf\nKd 0.2 0.5 0.1\nmap_d leaf.png\n");
+    const char *path =
+        write_text("leaf.obj", "mtllib leaf.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
+                               "usemtl leaf\nf 1 2 3\n");
+    assert_int_equal(scene_load(path, &s, &log), 0);
+    assert_int_equal(m.warnings, 1);
+    assert_non_null(strstr(m.warning, "opacity textures"));
+    scene_free(s);
+}
+
+/* A skin in the pose in which its vertices are stored (Valve's SMD) needs no word. */
+static void test_skin_at_rest(void **state)
+{
+    static const char text[] =
+        "version 1\nnodes\n0 \"a\" -1\nend\nskeleton\ntime 0\n0 0 0 0 0 0 0\nend\n"
+        "triangles\nskin\n0 0 0 0 0 0 1 0 0\n0 1 0 0 0 0 1 1 0\n0 0 1 0 0 0 1 0 1\nend\n";
+    messages m;
+    crv_logger log = catch_messages(&m);
+    scene *s = NULL;
+    (void)state;
+    assert_int_equal(scene_load(write_text("rest.smd", text), &s, &log), 0);
+    assert_int_equal(m.warnings, 0);
+    scene_free(s);
+}
+
 static void ignore_signal(int number)
 {
     (void)number;
@@ -141,6 +173,8 @@ int main(void)
         cmocka_unit_test(test_reader_that_crashes),
         cmocka_unit_test(test_children_that_are_not_there),
         cmocka_unit_test(test_ply_headers),
+        cmocka_unit_test(test_holes_that_are_not_read),
+        cmocka_unit_test(test_skin_at_rest),
         cmocka_unit_test(test_signals_of_the_host),
     };
     return cmocka_run_group_tests(tests, NULL, clean);
