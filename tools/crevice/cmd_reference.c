@@ -274,7 +274,7 @@ static int trace(const reference_settings *s, const scene *model, const scene_gb
 
     if (reference_create(model, g, &o, &run->work, &r->logger) != 0)
         return EXIT_FAILED;
-    int result = reference_run_all(run, s->view.output, s->resume,
+    int result = reference_run_all(run, s->view.output, s->resume, o.rays,
                                    s->view.common.threads.value, r);
     if (result != EXIT_DONE)
         return result;

@@ -15,8 +15,10 @@
 #define BATCH_SECONDS      0.25
 #define CHECKPOINT_SECONDS 10.0
 
-/* A pixel takes a tenth of a second at most. A checkpoint is worth some waiting. */
-enum { FIRST_BATCH = 4, GRACE_S = 10 };
+/* A pixel takes a tenth of a second at most. A checkpoint is worth some waiting. Pixels
+ * of the sky cost nothing and say nothing of the next ones, so that a batch is bounded by
+ * the rays that it may need: about a quarter of a second. */
+enum { FIRST_BATCH = 4, BATCH_RAYS = 2000000, GRACE_S = 10 };
 
 int reference_run_check(reference_run *run, const char *output, bool resume, report *r)
 {
@@ -76,8 +78,9 @@ static void save(reference_run *run, report *r)
     run->is_saved = reference_save(run->work, run->checkpoint, &errors) == 0;
 }
 
-static void compute(reference_run *run, int32_t threads, report *r)
+static void compute(reference_run *run, int32_t rays, int32_t threads, report *r)
 {
+    const int64_t most = BATCH_RAYS / rays > 1 ? BATCH_RAYS / rays : 1;
     progress p = progress_begin(r, "reference", reference_done(run->work),
                                 reference_total(run->work));
     double last_save = p.start;
@@ -91,7 +94,7 @@ static void compute(reference_run *run, int32_t threads, report *r)
         run->is_saved = false;
         const double now = report_seconds();
         if (now - start < 0.5 * BATCH_SECONDS)
-            batch *= 2;
+            batch = 2 * batch < most ? 2 * batch : most;
         else if (now - start > 2.0 * BATCH_SECONDS && batch > 1)
             batch /= 2;
         progress_show(&p, reference_done(run->work));
@@ -103,13 +106,13 @@ static void compute(reference_run *run, int32_t threads, report *r)
     progress_end(&p);
 }
 
-int reference_run_all(reference_run *run, const char *output, bool resume,
+int reference_run_all(reference_run *run, const char *output, bool resume, int32_t rays,
                       int32_t threads, report *r)
 {
     interrupt_hold(GRACE_S);
     const int result = begin(run, output, resume, r);
     if (result == EXIT_DONE)
-        compute(run, threads, r);
+        compute(run, rays, threads, r);
     const bool stopped = interrupt_waits();
     if (result == EXIT_DONE && stopped && !run->is_saved)
         save(run, r);

@@ -18,9 +18,9 @@ typedef struct reference_run {
 int reference_run_check(reference_run *run, const char *output, bool resume, report *r);
 
 /* Resumes or writes the first checkpoint, finds out whether the disk holds what will be
- * written, then computes all pixels. An interrupt leaves a checkpoint behind and takes
- * its course. Returns an exit code. */
-int reference_run_all(reference_run *run, const char *output, bool resume,
+ * written, then computes all pixels, with `rays` each at most. An interrupt leaves a
+ * checkpoint behind and takes its course. Returns an exit code. */
+int reference_run_all(reference_run *run, const char *output, bool resume, int32_t rays,
                       int32_t threads, report *r);
 
 /* Keeps the finished work on disk, where the picture could not be written. */
