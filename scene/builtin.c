@@ -9,7 +9,7 @@
 enum { MAX_PARAMETERS = 1 };
 
 typedef struct builtin {
-    const char *name;
+    const char *name, *help;
     void (*build)(mesh *m, scene_view *view, const double *p);
     scene_parameter parameter[MAX_PARAMETERS]; /* key NULL: none */
 } builtin;
@@ -23,9 +23,12 @@ typedef struct builtin {
     }
 
 static const builtin builtins[] = {
-    {.name = "courtyard", .build = builtin_courtyard},
-    {.name = "corner", .build = builtin_corner},
+    {.name = "courtyard",
+     .help = "columns, steps, gears, spheres in contact and grass; the demo",
+     .build = builtin_courtyard},
+    {.name = "corner", .help = "floor and wall, perpendicular", .build = builtin_corner},
     {.name = "plane",
+     .help = "a floor",
      .build = builtin_plane,
      .parameter = {{.key = "tilt",
                     .initial = -1.0,
@@ -34,6 +37,7 @@ static const builtin builtins[] = {
                     .help = "degrees between the plane's normal and an orthographic view "
                             "that it fills; without it, perspective"}}},
     {.name = "sphere",
+     .help = "a sphere of radius 1 on a floor",
      .build = builtin_sphere,
      .parameter = {{.key = "floor",
                     .initial = 1.0,
@@ -41,16 +45,25 @@ static const builtin builtins[] = {
                     .max = 1.0,
                     .help = "0: the sphere alone"}}},
     {.name = "groove",
+     .help = "two walls that meet in an edge, seen down their bisector",
      .build = builtin_groove,
      .parameter = {{.key = "angle",
                     .initial = 90.0,
                     .min = 10.0,
                     .max = 170.0,
                     .help = "degrees between the two walls"}}},
-    {.name = "relief", .build = builtin_relief},
-    {.name = "blades", .build = builtin_blades, .parameter = SEED},
-    {.name = "leaves", .build = builtin_leaves, .parameter = SEED},
-    {.name = "bars", .build = builtin_bars, .parameter = SEED},
+    {.name = "relief",
+     .help = "flats and a ball for height maps",
+     .build = builtin_relief},
+    {.name = "blades",
+     .help = "a lawn with stones",
+     .build = builtin_blades,
+     .parameter = SEED},
+    {.name = "leaves", .help = "small trees", .build = builtin_leaves, .parameter = SEED},
+    {.name = "bars",
+     .help = "fence, tables, slats, shelves and leaning poles",
+     .build = builtin_bars,
+     .parameter = SEED},
 };
 
 enum { BUILTIN_COUNT = sizeof builtins / sizeof *builtins };
@@ -58,6 +71,11 @@ enum { BUILTIN_COUNT = sizeof builtins / sizeof *builtins };
 const char *scene_builtin_name(int32_t index)
 {
     return index >= 0 && index < (int32_t)BUILTIN_COUNT ? builtins[index].name : NULL;
+}
+
+const char *scene_builtin_help(int32_t index)
+{
+    return index >= 0 && index < (int32_t)BUILTIN_COUNT ? builtins[index].help : NULL;
 }
 
 const scene_parameter *scene_builtin_parameter(int32_t scene_index, int32_t index)

@@ -44,6 +44,7 @@ int scene_load_limited(const char *path, const scene_limits *limits, scene **out
  */
 int scene_builtin(const char *name, scene **out, const crv_logger *log);
 const char *scene_builtin_name(int32_t index);
+const char *scene_builtin_help(int32_t index); /* what it shows */
 
 /* Whether scene_builtin() knows the name and its parameters: 0, or -1 after an error
  * line. */

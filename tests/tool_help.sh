@@ -19,6 +19,14 @@ for command in render ao gbuffer reference compare methods devices report bench;
     good --help
 done
 
+# Every scene that is listed can be made.
+good help scenes
+scenes=$(sed -n 's/^  \([a-z]*\)  .*/\1/p' stdout.txt)
+[ "$(echo "$scenes" | wc -l)" -ge 9 ] || fail "few scenes: $scenes"
+for name in $scenes; do
+    good gbuffer "builtin:$name" --size 8x8 -o "$name.exr"
+done
+
 # Every option of the table is a flag of both commands that estimate, and is in their help.
 good methods --json
 flags=$(sed -n 's/.*"flag":[[:space:]]*"\(--[a-z0-9-]*\)".*/\1/p' stdout.txt | sort -u)

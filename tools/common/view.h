@@ -37,7 +37,7 @@ extern const arg_table view_buffers; /* --layers ... */
         .name = "MODEL", .type = ARG_TEXT, .required = true,                             \
         .offset = offsetof(view_settings, model),                                        \
         .help = "mesh file (glTF, OBJ, PLY, STL, FBX, ...), or a scene made in code: "   \
-                "builtin:courtyard, builtin:NAME[,KEY=VALUE]"                            \
+                "builtin:courtyard, ... (see `crevice help scenes`)"                     \
     }
 
 /* What can be known to be wrong before anything is loaded. Returns an exit code. */

@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "help_passes.h"
+#include "help_scenes.h"
 #include "common/help.h"
 #include "common/manual.h"
 #include "common/nearest.h"
@@ -78,6 +79,10 @@ static int help(int argc, char **argv, report *r)
         return help_as_pages(argc, argv, r);
     if (strcmp(argv[0], "passes") == 0) {
         help_passes(stdout);
+        return EXIT_DONE;
+    }
+    if (strcmp(argv[0], "scenes") == 0) {
+        help_scenes(stdout);
         return EXIT_DONE;
     }
     const command *c = find_command(argv[0], r);
