@@ -148,11 +148,15 @@ static cJSON *option_json(const crv_option *option, const crv_method *method)
 static void add_method(cJSON *list, const crv_method *method)
 {
     cJSON *object = cJSON_CreateObject();
+    crv_options defaults;
+    crv_options_init(&defaults, sizeof defaults, method->name);
 
     cJSON_AddStringToObject(object, "name", method->name);
     cJSON_AddStringToObject(object, "title", method->title);
     cJSON_AddStringToObject(object, "paper", method->paper);
     cJSON_AddStringToObject(object, "weighting", weighting_name(method->weighting));
+    cJSON_AddStringToObject(object, "filter",
+                            defaults.filter ? defaults.filter->name : "none");
     cJSON *options = cJSON_AddArrayToObject(object, "options");
     for (int32_t i = 0; i < crv_option_count(); i++)
         if (method_reads(crv_option_at(i), method))

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Measures the methods of `crevice` through the tool, and draws what it found."""
