@@ -41,6 +41,16 @@ llvm-symbolizer  llvm
 -                libomp-dev
 '
 
+# What study/run measures and draws with, and what tests it.
+needs_study='
+-         python3-numpy
+-         python3-matplotlib
+-         python3-jinja2
+-         python3-openimageio
+-         python3-pytest
+chromium  chromium
+'
+
 # To compile for 64-bit Arm on another machine and to run that.
 needs_arm='
 aarch64-linux-gnu-gcc  gcc-aarch64-linux-gnu

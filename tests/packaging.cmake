@@ -44,11 +44,3 @@ if(TARGET example_minimal)
     packaging_test(packaging_example ${Python3_EXECUTABLE} ${here}/check_example.py
         $<TARGET_FILE:example_minimal> ${CMAKE_CURRENT_BINARY_DIR}/packaging_example)
 endif()
-
-# The page that the tool writes, in the browser that it is for.
-if(TARGET crevice_tool)
-    add_test(NAME report_browser COMMAND ${Python3_EXECUTABLE} ${here}/report_browser.py
-        $<TARGET_FILE:crevice_tool> ${CMAKE_CURRENT_BINARY_DIR}/report_browser)
-    set_tests_properties(report_browser PROPERTIES
-        LABELS packaging TIMEOUT 600 SKIP_RETURN_CODE 77)
-endif()

@@ -9,20 +9,7 @@ crevice_test(test_tool_metrics_heatmap
     SOURCES test_tool_metrics_heatmap.c LIBS crevice_common)
 crevice_test(test_tool_args
     SOURCES test_tool_args.c ${tool_dir}/frames.c LIBS crevice_common)
-crevice_test(test_tool_stability
-    SOURCES test_tool_stability.c ${tool_dir}/study/stability.c)
-crevice_test(test_tool_closed_forms
-    SOURCES test_tool_closed_forms.c quadrature.c ${tool_dir}/study/closed_forms.c
-            ${tool_dir}/study/fitted_order.c)
-crevice_test(test_tool_relief_truth
-    SOURCES test_tool_relief_truth.c ${tool_dir}/study/claims_relief_truth.c)
-crevice_test(test_tool_plot
-    SOURCES test_tool_plot.c ${tool_dir}/study/plot_pareto.c ${tool_dir}/study/plot_axis.c
-    LIBS crevice_common)
-foreach(test test_tool_args test_tool_stability test_tool_closed_forms
-        test_tool_relief_truth test_tool_plot)
-    target_include_directories(${test} PRIVATE ${tool_dir} ${PROJECT_SOURCE_DIR}/tools)
-endforeach()
+target_include_directories(test_tool_args PRIVATE ${tool_dir} ${PROJECT_SOURCE_DIR}/tools)
 
 # Each script gets the tool and a folder of its own to write in.
 function(tool_test name)
@@ -46,9 +33,5 @@ tool_test(tool_errors)
 tool_test(tool_faults)
 tool_test(tool_shared)
 set_tests_properties(tool_shared PROPERTIES TIMEOUT 600)
-tool_test(tool_structure)
-set_tests_properties(tool_structure PROPERTIES LABELS once TIMEOUT 600)
-tool_test(tool_report)
-set_tests_properties(tool_report PROPERTIES TIMEOUT 600)
 tool_test(tool_bench)
 set_tests_properties(tool_bench PROPERTIES TIMEOUT 600)

@@ -161,10 +161,6 @@ bad 2 'kept.pfm: is an input' render $m $small $relief -o out.png --lit ./kept.p
 bad 2 'kept.exr: is an input' render $m $small --shade lit --sky kept.exr -o kept.exr
 bad 2 'two pictures' render $m $small -o out.png --lit new.png --unlit ./new.png
 cmp -s map.pfm kept.pfm && cmp -s frame.exr kept.exr || fail "an input was overwritten"
-mkdir -p page
-echo '{"views": []}' >page/report.json
-bad 2 'report.json: is an input' report -o page --views page/report.json
-bad 1 'report.json: its list .* is empty' report -o page2 --views page/report.json
 
 # A limit on the size of files is told as any full disk; nothing is left behind.
 (

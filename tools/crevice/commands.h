@@ -12,7 +12,6 @@ extern const command command_reference;
 extern const command command_compare;
 extern const command command_methods;
 extern const command command_devices;
-extern const command command_report;
 extern const command command_bench;
 
 #endif
