@@ -168,6 +168,119 @@ static void other_types_become_floats(void **state)
     assert_int_equal(crv_image_convert(&from, &two, NULL), bad);
 }
 
+/* Radius 0.5 at depth 2 with a focal length of 100 px is 25 px; bilateral13 reads 6. */
+static void guard_band_is_the_projected_radius(void **state)
+{
+    (void)state;
+    crv_options options = fixture_options("hbao");
+    crv_camera camera = crv_camera_perspective(200, 200, 1.57079633f);
+    options.radius = 0.5f;
+    assert_int_equal(crv_guard_px(&options, &camera, 2), 25 + 6);
+    options.filter = NULL;
+    assert_int_equal(crv_guard_px(&options, &camera, 2), 25);
+    options.max_radius_px = 10;
+    assert_int_equal(crv_guard_px(&options, &camera, 2), 10);
+    options.max_radius_px = 0;
+    assert_int_equal(crv_guard_px(&options, &camera, 1e-9f), CRV_MAX_SIZE);
+    assert_int_equal(crv_guard_px(&options, &camera, 0), 0);
+    assert_int_equal(crv_guard_px(NULL, &camera, 2), 0);
+    assert_int_equal(crv_guard_px(&options, NULL, 2), 0);
+    camera = crv_camera_orthographic(200, 200, 4); /* 50 px for a unit */
+    assert_int_equal(crv_guard_px(&options, &camera, 0), 25);
+}
+
+static void count_warnings(void *user, crv_log_level level, const char *line)
+{
+    int32_t *warnings = user;
+    *warnings += level == CRV_LOG_WARNING && strncmp(line, "depth: ", 7) == 0;
+}
+
+/* Depth that cannot be right is told once, and depth that can be is not. */
+static void depth_that_cannot_be_right_is_told_once(void **state)
+{
+    (void)state;
+    const crv_depth_format planar = crv_depth_format_planar();
+    const crv_depth_format hardware = {
+        .encoding = CRV_DEPTH_HARDWARE, .z_near = 0.1f, .z_far = 100};
+    const struct {
+        const crv_depth_format *format;
+        float first, other; /* of the first half of the pixels, and of the second */
+        int32_t warnings;
+    } CASES[] = {
+        {&planar, 3, 8, 0},        {&planar, 3, INFINITY, 0}, {&planar, 0, 8, 0},
+        {&planar, 0.02f, 0.5f, 0}, {&hardware, 0.9f, 1, 0},   {&hardware, 3, 8, 1},
+        {&hardware, 0.9f, -2, 1},  {&hardware, 1, 1, 1},      {&planar, -3, 8, 1},
+        {&planar, 0, 0, 1},        {&planar, 0.02f, 0, 1},    {&planar, NAN, INFINITY, 1},
+    };
+    const crv_camera camera = crv_camera_perspective(WIDTH, HEIGHT, 1);
+    int32_t warnings = 0;
+    crv_context_desc hooks;
+    crv_gbuffer_desc desc;
+    crv_context *context = NULL;
+    crv_context_desc_init(&hooks, sizeof hooks);
+    hooks.logger = (crv_logger){.fn = count_warnings, .user = &warnings};
+    crv_gbuffer_desc_init(&desc, sizeof desc, WIDTH, HEIGHT);
+    assert_int_equal(crv_context_create(&hooks, &context), CRV_OK);
+    for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
+        float values[COUNT];
+        for (int k = 0; k < COUNT; k++)
+            values[k] = k < COUNT / 2 ? CASES[i].first : CASES[i].other;
+        const crv_const_image depth = crv_const_image_packed(values, WIDTH, HEIGHT, 1);
+        crv_gbuffer *gbuffer = NULL;
+        warnings = 0;
+        assert_int_equal(crv_gbuffer_create(context, &desc, &gbuffer), CRV_OK);
+        for (int frame = 0; frame < 3; frame++) {
+            assert_int_equal(crv_gbuffer_set_camera(gbuffer, &camera), CRV_OK);
+            assert_int_equal(crv_gbuffer_set_depth(gbuffer, 0, &depth, CASES[i].format),
+                             CRV_OK);
+        }
+        crv_gbuffer_destroy(gbuffer);
+        assert_int_equal(warnings, CASES[i].warnings);
+    }
+    crv_context_destroy(context);
+}
+
+static double rms_error(const float *a, const float *b)
+{
+    double sum = 0;
+    for (int i = 0; i < COUNT; i++)
+        sum += ((double)a[i] - (double)b[i]) * ((double)a[i] - (double)b[i]);
+    return sqrt(sum / COUNT);
+}
+
+/* The mean of 16 frames with noise of their own comes near the estimate with 32 times the
+ * directions; the same frame 16 times does not. */
+static void frames_of_other_noise_average_out(void **state)
+{
+    (void)state;
+    fixture f = spheres();
+    const fixture_run run = {.exact = 1};
+    crv_options options = fixture_options("hbao");
+    options.filter = NULL;
+    options.directions = 4;
+    options.noise_size = 1; /* no help from neighbours */
+    options.steps = 32;
+    float mean[COUNT] = {0};
+    double first = 0;
+    crv_options converged = options;
+    converged.directions = 128;
+    float *truth = fixture_compute(&f, &converged, &run);
+    for (int frame = 0; frame < 16; frame++) {
+        options.noise_index = frame;
+        float *pixels = fixture_compute(&f, &options, &run);
+        if (frame == 0)
+            first = rms_error(pixels, truth);
+        for (int i = 0; i < COUNT; i++)
+            mean[i] += pixels[i] / 16;
+        free(pixels);
+    }
+    /* 16 well-spread draws: an error of a quarter would be that of random ones. */
+    assert_true(first > 0.005);
+    assert_true(rms_error(mean, truth) < first / 4);
+    free(truth);
+    fixture_free(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -175,6 +288,9 @@ int main(void)
         cmocka_unit_test(short_way_refuses_with_a_line),
         cmocka_unit_test(depth_converts_as_in_a_gbuffer),
         cmocka_unit_test(other_types_become_floats),
+        cmocka_unit_test(guard_band_is_the_projected_radius),
+        cmocka_unit_test(depth_that_cannot_be_right_is_told_once),
+        cmocka_unit_test(frames_of_other_noise_average_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

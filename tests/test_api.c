@@ -402,7 +402,7 @@ static void bad_formats_and_cameras_are_refused(void **state)
     bad[1].fy_px = INFINITY;
     bad[2].cx_px = NAN;
     bad[3].world_to_view[4] = 2;
-    bad[4].world_to_view[0] = -1; /* a reflection */
+    bad[4].world_to_view[1] = 0.5f; /* sheared */
     bad[5].projection = (crv_projection)2;
     for (int i = 0; i < 6; i++)
         assert_int_equal(crv_gbuffer_set_camera(o.gbuffer, &bad[i]),

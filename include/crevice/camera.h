@@ -25,23 +25,24 @@ extern "C" {
 
 typedef enum crv_projection { CRV_PERSPECTIVE = 0, CRV_ORTHOGRAPHIC = 1 } crv_projection;
 
-/* A plain value; copy it freely. Pixels are those of the G-buffer, guard band included.
- */
+/* A plain value; copy it freely. Pixels are those of the G-buffer, guard band
+ * included. */
 typedef struct crv_camera {
     crv_projection projection;
     /* Focal length in pixels (perspective), or pixels per scene unit (orthographic); > 0.
-     * The two differ where pixels are not square. */
+     * They differ if pixels are not square. */
     float fx_px, fy_px;
     float cx_px; /* principal point, from the left edge; may lie outside the image */
     float cy_px; /* principal point, from the top edge */
-    /* Rotation from world to view space, row-major: view = M * world. Read only for
-     * normals given in world space. The identity by default. */
+    /* World to view space, row-major: view = M * world. A rotation or, for a left-handed
+     * world, a reflection. Read only for normals given in world space. Default: the
+     * identity. */
     float world_to_view[9];
 } crv_camera;
 
-/* A perspective camera with square pixels and a centred principal point. vfov_rad is the
- * full vertical field of view, in (0, pi). Checks nothing; crv_gbuffer_set_camera() does.
- * Thread-safe. */
+/* A perspective camera with square pixels and a centred principal point. vfov_rad: the
+ * full vertical field of view in radians, above 0 and below pi. Checks nothing;
+ * crv_gbuffer_set_camera() refuses a field of view that is out of range. Thread-safe. */
 CRV_API crv_camera crv_camera_perspective(int32_t width, int32_t height, float vfov_rad);
 
 /* An orthographic camera with square pixels and a centred view that is view_height scene
@@ -49,26 +50,44 @@ CRV_API crv_camera crv_camera_perspective(int32_t width, int32_t height, float v
 CRV_API crv_camera crv_camera_orthographic(int32_t width, int32_t height,
                                            float view_height);
 
+/* How the 16 numbers of a matrix lie in memory. */
+typedef enum crv_matrix_layout {
+    /* clip = M * view with columns one after the other: OpenGL, GLM, Unity. Also what
+     * multiplies row vectors (clip = view * M) and is stored by rows: DirectXMath,
+     * Unreal. */
+    CRV_MATRIX_COLUMN_MAJOR = 0,
+    /* clip = M * view with rows one after the other: as in mathematical notation, numpy,
+     * Blender. */
+    CRV_MATRIX_ROW_MAJOR = 1
+} crv_matrix_layout;
+
 /*
- * The camera of a projection matrix as graphics APIs use it: column-major, clip = M *
- * view, view space as above, perspective or orthographic, off-centre too. Clip-space y up
- * (OpenGL, Direct3D) or down (Vulkan without flip) is recognised by the sign of M[5]. How
- * the matrix maps z does not matter here; say it in crv_depth_format. world_to_view is
- * set to the identity. Returns CRV_ERROR_INVALID_ARGUMENT where out or m is NULL, a size
- * is out of range or the matrix is neither kind of projection. Thread-safe.
+ * The camera of a projection matrix: perspective or orthographic, off-centre, tiled or
+ * jittered, right-handed (looks along -Z) or left-handed (along +Z), with any mapping of
+ * z. An upright image is assumed: the sign of M(1,1) tells whether clip-space y points up
+ * (OpenGL, Direct3D, Metal) or down (Vulkan). world_to_view is set to the identity.
+ *
+ * Normals in the view space of a left-handed engine point along +Z away from the camera:
+ * negate their z before they are given as CRV_NORMAL_VIEW, or give world-space normals
+ * and a world_to_view whose last row is negated.
+ *
+ * logger: gets the reason for a failure; NULL: nobody. Errors: INVALID_ARGUMENT if out or
+ * m is NULL, a size is out of range, or the matrix is no such projection; if its rows and
+ * columns look exchanged, the line says so. Thread-safe.
  */
 CRV_API crv_status crv_camera_from_projection(crv_camera *out, const float m[16],
-                                              int32_t width, int32_t height);
+                                              crv_matrix_layout layout, int32_t width,
+                                              int32_t height, const crv_logger *logger);
 
 /* Sets world_to_view for a camera at eye that looks at target, `up` pointing upwards in
- * the image. CRV_ERROR_INVALID_ARGUMENT where eye equals target or up is parallel to the
- * view. Thread-safe. */
+ * the image. Errors: INVALID_ARGUMENT if an argument is NULL or not finite, eye equals
+ * target, or up is parallel to the view. Thread-safe. */
 CRV_API crv_status crv_camera_look_at(crv_camera *camera, const float eye[3],
                                       const float target[3], const float up[3]);
 
 /* The camera of the part of an image whose top left pixel is (x, y): moves the principal
- * point. Negative x, y widen the image: a guard band of g pixels is crv_camera_crop(c,
- * -g, -g). Thread-safe. */
+ * point. Negative x and y widen the image: for a guard band of g pixels use
+ * crv_camera_crop(c, -g, -g). Of NULL: a camera that every call refuses. Thread-safe. */
 CRV_API crv_camera crv_camera_crop(const crv_camera *camera, int32_t x, int32_t y);
 
 #ifdef __cplusplus

@@ -57,6 +57,25 @@ typedef struct crv_depth_format {
 /* Planar depth without a background threshold: what most callers want. Thread-safe. */
 CRV_API crv_depth_format crv_depth_format_planar(void);
 
+/* What clip-space z / w is between near and far. */
+typedef enum crv_clip_depth {
+    CRV_CLIP_ZERO_TO_ONE = 0,     /* Vulkan, Direct3D, Metal, glClipControl */
+    CRV_CLIP_MINUS_ONE_TO_ONE = 1 /* OpenGL, Unity's Camera.projectionMatrix */
+} crv_clip_depth;
+
+/*
+ * The format of a depth buffer in [0, 1] that was rendered with a projection matrix:
+ * hardware or reversed, near and far, infinite far included. An orthographic matrix is
+ * taken for right-handed unless all that it shows would lie behind the eye. logger: gets
+ * the reason for a failure; NULL: nobody. Errors: INVALID_ARGUMENT if an argument is not
+ * valid, or the matrix has an oblique near plane or maps z otherwise. Thread-safe.
+ */
+CRV_API crv_status crv_depth_format_from_projection(crv_depth_format *out,
+                                                    const float m[16],
+                                                    crv_matrix_layout layout,
+                                                    crv_clip_depth range,
+                                                    const crv_logger *logger);
+
 /*
  * Converts depth of any encoding to planar depth, background as +INFINITY, without a
  * G-buffer. depth and planar: one channel, of the same size; they may be the same image.
@@ -124,13 +143,15 @@ CRV_API crv_status crv_gbuffer_create(struct crv_context *context,
 CRV_API void crv_gbuffer_destroy(crv_gbuffer *gbuffer);
 
 /* Begins a frame: copies the camera and forgets depth and normals of the frame before.
- * Errors: INVALID_ARGUMENT where a number is not finite, fx_px or fy_px is not positive,
- * or world_to_view is not a rotation (a reflection included; tolerance 1e-3). */
+ * Errors: INVALID_ARGUMENT if a number is not finite, fx_px or fy_px is not positive, or
+ * world_to_view is neither a rotation nor a reflection (tolerance 1e-3). */
 CRV_API crv_status crv_gbuffer_set_camera(crv_gbuffer *gbuffer, const crv_camera *camera);
 
 /*
  * Converts one depth layer. image: one channel, the G-buffer's size; read during the call
- * only. format NULL: planar. A hardware depth equal to the far value is background.
+ * only. format NULL: planar. A hardware depth equal to the far value is background. If
+ * layer 0 cannot be right, such as metres that are given as a depth buffer, or all of it
+ * background, one warning for each G-buffer says so, with the share of the pixels.
  * Errors: NOT_READY before crv_gbuffer_set_camera(), INVALID_ARGUMENT.
  */
 CRV_API crv_status crv_gbuffer_set_depth(crv_gbuffer *gbuffer, int32_t layer,

@@ -170,6 +170,11 @@ typedef struct crv_options {
     /* Angle between normals, degrees, at which a filter tap stops counting; 180: taps
      * count whatever their normal. */
     float filter_normal;
+
+    /* Number of the frame: another draw of the noise for each, whose mean over frames
+     * converges fast. Count it up if temporal antialiasing averages frames; leave it at
+     * 0, the default, if nothing does, or the noise flickers. */
+    int32_t noise_index;
 } crv_options;
 
 /* Sets every option to its default for the named method (NULL: hbao). Pass sizeof

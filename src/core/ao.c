@@ -3,7 +3,12 @@
 #include "crevice/ao.h"
 
 #include "base/log.h"
+#include "core/camera.h"
+#include "core/options.h"
+#include "core/registry.h"
 #include "crevice/context.h"
+
+#include <math.h>
 
 crv_status crv_ao(const crv_const_image *depth, const crv_const_image *normals,
                   const crv_camera *camera, const crv_options *options,
@@ -41,4 +46,22 @@ crv_status crv_ao(const crv_const_image *depth, const crv_const_image *normals,
     crv_gbuffer_destroy(gbuffer);
     crv_context_destroy(context);
     return status;
+}
+
+int32_t crv_guard_px(const crv_options *options, const crv_camera *camera,
+                     float nearest_depth)
+{
+    crv_options o;
+    const bool perspective = camera && camera->projection == CRV_PERSPECTIVE;
+    if (crv__options_take(NULL, options, &o) || crv__camera_check(NULL, camera)
+        || (perspective && !(nearest_depth > 0)))
+        return 0;
+    const double focal_px = fmax((double)camera->fx_px, (double)camera->fy_px);
+    double px = (double)o.radius * focal_px / (perspective ? (double)nearest_depth : 1.0);
+    if (o.max_radius_px > 0
+        && crv_option_applies(crv_option_find("max_radius_px"), o.method, NULL))
+        px = fmin(px, (double)o.max_radius_px);
+    if (o.filter)
+        px += crv__filter_of(o.filter)->radius_px;
+    return (int32_t)ceil(fmin(px, CRV_MAX_SIZE));
 }

@@ -5,6 +5,7 @@
 #include "crevice/image.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 static const float IDENTITY[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -23,47 +24,15 @@ static crv_camera centred(crv_projection projection, int32_t width, int32_t heig
 
 crv_camera crv_camera_perspective(int32_t width, int32_t height, float vfov_rad)
 {
+    const double vfov = (double)vfov_rad;
+    const bool is_angle = vfov > 0 && vfov < 3.14159;
     return centred(CRV_PERSPECTIVE, width, height,
-                   0.5 * height / tan(0.5 * (double)vfov_rad));
+                   is_angle ? 0.5 * height / tan(0.5 * vfov) : (double)NAN);
 }
 
 crv_camera crv_camera_orthographic(int32_t width, int32_t height, float view_height)
 {
     return centred(CRV_ORTHOGRAPHIC, width, height, height / (double)view_height);
-}
-
-/*
- * clip = M * view, so with column-major m the row r is m[r], m[4 + r], m[8 + r], m[12 +
- * r]. Perspective: w = -z, ndc x = (m0 x + m8 z) / -z, so x_px = (m0 x/d - m8 + 1)
- * width/2.
- */
-crv_status crv_camera_from_projection(crv_camera *out, const float m[16], int32_t width,
-                                      int32_t height)
-{
-    if (!out || !m || width < 1 || height < 1 || width > CRV_MAX_SIZE
-        || height > CRV_MAX_SIZE)
-        return CRV_ERROR_INVALID_ARGUMENT;
-    for (int i = 0; i < 16; i++) {
-        if (!isfinite(m[i]))
-            return CRV_ERROR_INVALID_ARGUMENT;
-    }
-    const int perspective = m[11] < 0 && m[15] == 0;
-    const int orthographic = m[11] == 0 && m[15] > 0;
-    if ((!perspective && !orthographic) || m[0] <= 0 || m[5] == 0 || m[1] != 0
-        || m[4] != 0 || m[3] != 0 || m[7] != 0)
-        return CRV_ERROR_INVALID_ARGUMENT;
-    const double w = perspective ? -(double)m[11] : (double)m[15];
-    const double up = m[5] > 0 ? 1 : -1; /* clip-space y points up or down */
-    const double shift_x = (perspective ? -(double)m[8] : (double)m[12]) / w;
-    const double shift_y = (perspective ? -(double)m[9] : (double)m[13]) / w * up;
-    crv_camera camera =
-        centred(perspective ? CRV_PERSPECTIVE : CRV_ORTHOGRAPHIC, width, height, 1);
-    camera.fx_px = (float)(m[0] / w * 0.5 * width);
-    camera.fy_px = (float)(m[5] * up / w * 0.5 * height);
-    camera.cx_px = (float)((1 + shift_x) * 0.5 * width);
-    camera.cy_px = (float)((1 - shift_y) * 0.5 * height);
-    *out = camera;
-    return CRV_OK;
 }
 
 static double normalize(double v[3])
@@ -116,7 +85,8 @@ crv_camera crv_camera_crop(const crv_camera *camera, int32_t x, int32_t y)
     return cropped;
 }
 
-static int is_rotation(const float m[9])
+/* Reflections included: normals of left-handed worlds are turned by one. */
+static bool is_orthonormal(const float m[9])
 {
     const float tolerance = 1e-3f;
     for (int i = 0; i < 3; i++) {
@@ -125,13 +95,10 @@ static int is_rotation(const float m[9])
             for (int k = 0; k < 3; k++)
                 dot += m[3 * i + k] * m[3 * j + k];
             if (!(fabsf(dot - (i == j ? 1.0f : 0.0f)) <= tolerance))
-                return 0;
+                return false;
         }
     }
-    float determinant = m[0] * (m[4] * m[8] - m[5] * m[7])
-                        - m[1] * (m[3] * m[8] - m[5] * m[6])
-                        + m[2] * (m[3] * m[7] - m[4] * m[6]);
-    return determinant > 0;
+    return true;
 }
 
 crv_status crv__camera_check(const crv_logger *logger, const crv_camera *camera)
@@ -148,13 +115,14 @@ crv_status crv__camera_check(const crv_logger *logger, const crv_camera *camera)
         return crv__fail(
             logger, CRV_ERROR_INVALID_ARGUMENT,
             "camera: fx %g, fy %g, cx %g, cy %g px; fx and fy must be positive and "
-            "all finite",
+            "all finite (a field of view is in radians, between 0 and pi: degrees times "
+            "0.01745)",
             (double)camera->fx_px, (double)camera->fy_px, (double)camera->cx_px,
             (double)camera->cy_px);
-    if (!is_rotation(camera->world_to_view))
+    if (!is_orthonormal(camera->world_to_view))
         return crv__fail(
             logger, CRV_ERROR_INVALID_ARGUMENT,
-            "camera: world_to_view is not a rotation; for the identity begin with "
-            "crv_camera_perspective()");
+            "camera: world_to_view is neither a rotation nor a reflection; for the "
+            "identity begin with crv_camera_perspective()");
     return CRV_OK;
 }

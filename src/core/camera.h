@@ -4,6 +4,8 @@
 
 #include "crevice/camera.h"
 
+#include <stdbool.h>
+
 /* INVALID_ARGUMENT with a line unless the camera can be computed with. */
 crv_status crv__camera_check(const crv_logger *logger, const crv_camera *camera);
 

@@ -169,6 +169,71 @@ crv_status crv__depth_map_init(crv__depth_map *map, const crv_logger *logger,
     return CRV_OK;
 }
 
+/* ---- depth that cannot be right ---- */
+
+enum { LOOKED_AT = 128 }; /* pixels of a row and of a column */
+
+typedef struct depth_census {
+    int32_t total, background, outside; /* outside: what the encoding cannot hold */
+    int32_t at_ends, beyond_one;        /* exactly 0 or 1; finite and above 1 */
+} depth_census;
+
+static depth_census take_census(const crv__depth_map *map, const crv_const_image *image)
+{
+    const bool between = is_between_planes(map->format.encoding)
+                         || map->format.encoding == CRV_DEPTH_LOGARITHMIC;
+    const int32_t step_x = (image->width + LOOKED_AT - 1) / LOOKED_AT;
+    const int32_t step_y = (image->height + LOOKED_AT - 1) / LOOKED_AT;
+    depth_census c = {.total = 0};
+    for (int32_t y = step_y / 2; y < image->height; y += step_y) {
+        for (int32_t x = step_x / 2; x < image->width; x += step_x) {
+            const float v = *crv_const_image_at(image, x, y, 0);
+            c.total++;
+            c.background += !(crv__depth_map_apply(map, x, y, v) < INFINITY);
+            if (!isfinite(v))
+                continue;
+            c.outside += v < map->low || (between && v > 1);
+            c.at_ends += v == 0 || v == 1;
+            c.beyond_one += v > 1;
+        }
+    }
+    return c;
+}
+
+static double percent(int32_t part, int32_t whole)
+{
+    return 100.0 * part / whole;
+}
+
+/* One warning for a G-buffer, since frames of a shot are alike. Some odd pixels are left
+ * alone. */
+static void doubt_depth(crv_gbuffer *g, const depth_job *job)
+{
+    if (g->depth_doubted || job->layer > 0)
+        return;
+    const depth_census c = take_census(&job->map, job->image);
+    const crv_logger *logger = &g->context->logger;
+    const bool is_distance = job->map.format.encoding == CRV_DEPTH_PLANAR
+                             || job->map.format.encoding == CRV_DEPTH_RADIAL;
+    g->depth_doubted = true;
+    if (c.outside > c.total / 100)
+        crv__log(logger, CRV_LOG_WARNING,
+                 "depth: %.1f %% of it is outside of what its encoding can hold; is the "
+                 "encoding in crv_depth_format right?",
+                 percent(c.outside, c.total));
+    else if (c.background == c.total)
+        crv__log(logger, CRV_LOG_WARNING,
+                 "depth: 100 %% of it is background, so that all is white; are encoding, "
+                 "near and far in crv_depth_format right?");
+    else if (is_distance && c.beyond_one == 0 && c.at_ends > c.total / 100)
+        crv__log(logger, CRV_LOG_WARNING,
+                 "depth: none of it is above 1 and %.1f %% is exactly 0 or 1, as in a "
+                 "depth buffer; is it really a distance in scene units?",
+                 percent(c.at_ends, c.total));
+    else
+        g->depth_doubted = false;
+}
+
 crv_status crv_gbuffer_set_depth(crv_gbuffer *g, int32_t layer,
                                  const crv_const_image *image,
                                  const crv_depth_format *format)
@@ -189,6 +254,7 @@ crv_status crv_gbuffer_set_depth(crv_gbuffer *g, int32_t layer,
     status = crv__depth_map_init(&job.map, logger, &g->camera, format);
     if (status)
         return status;
+    doubt_depth(g, &job);
     crv__run_rows(g->context, g->desc.height, convert_row, &job);
     g->has_depth |= 1u << layer;
     if (layer == 0)

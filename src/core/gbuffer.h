@@ -20,6 +20,7 @@ struct crv_gbuffer {
     crv__plane depth[CRV_MAX_LAYERS];
     crv__plane normal[3];
     int32_t has_field;
+    bool depth_doubted;   /* a warning of depth that cannot be right was logged */
     int32_t relief_ready; /* field.relief_normal[] belongs to field and normal[] */
     crv__field field;     /* its planes live as long as the G-buffer */
 };

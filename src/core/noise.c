@@ -95,7 +95,7 @@ void crv__noise_advance(const crv__noise_texel *tile, int32_t size, double secto
                  shift_sector = fmod(index / (g * g * g), 1);
     const double c = cos(turn), s = sin(turn);
     const size_t count = (size_t)size * (size_t)size;
-    memcpy(out, tile, count * sizeof *out);
+    memmove(out, tile, count * sizeof *out);
     for (size_t i = 0; index > 0 && i < count; i++) {
         const double x = (double)tile[i].cos_alpha, y = (double)tile[i].sin_alpha;
         const double b = fmod(0.5 + 0.5 * (double)tile[i].beta + shift_beta, 1);

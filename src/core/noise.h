@@ -18,7 +18,7 @@ void crv__noise_fill(crv__noise_texel *tile, int32_t size, double sector_rad,
 /*
  * The tile of another frame: every pixel goes on in a low-discrepancy sequence of
  * rotations, jitters and offsets, so that means over frames converge fast. index 0: the
- * tile itself. out may not be the tile.
+ * tile itself. out may be the tile.
  */
 void crv__noise_advance(const crv__noise_texel *tile, int32_t size, double sector_rad,
                         uint32_t index, crv__noise_texel *out);

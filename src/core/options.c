@@ -110,6 +110,8 @@ static const row TABLE[] = {
     INT(noise_size, "px", 4, 1, 64, EVERY_METHOD,
         "edge of the tile of rotations and jitters; box4 suits 4"),
     INT(seed, "", 0, 0, 2147483647, EVERY_METHOD, "another noise tile"),
+    INT(noise_index, "", 0, 0, 2147483647, EVERY_METHOD,
+        "frame number for temporal antialiasing: other noise for each; else 0"),
     FLOAT(filter_depth, "radius", 0.05, 1e-4, 1e3, SOME_FILTERS,
           "depth deviation at which a filter tap stops counting"),
     BOOL(filter_slope, 1, SOME_FILTERS,

@@ -129,8 +129,11 @@ void crv__setup_fill(const crv__setup *s)
     }
     if (s->pattern)
         s->method->pattern_fill(&s->options, s->pattern);
-    crv__noise_fill(s->noise, s->options.noise_size, s->pattern ? 2 * PI : 2 * PI / count,
-                    s->options.seed, s->noise_scratch);
+    const crv_options *o = &s->options;
+    const double sector_rad = s->pattern ? 2 * PI : 2 * PI / count;
+    crv__noise_fill(s->noise, o->noise_size, sector_rad, o->seed, s->noise_scratch);
+    crv__noise_advance(s->noise, o->noise_size, sector_rad, (uint32_t)o->noise_index,
+                       s->noise);
 }
 
 /* ---- sizes ---- */
