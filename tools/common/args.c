@@ -28,8 +28,7 @@ static const arg thread_rows[] = {
      .max = 1024,
      .offset = offsetof(common_settings, threads),
      .initial = "0",
-     .help =
-         "threads to work with; 0: all processors. They change nothing in the result"},
+     .help = "threads that work; 0: all processors. The result is the same bit by bit"},
 };
 const arg_table args_threads = ARG_TABLE("Work", thread_rows);
 
@@ -132,7 +131,7 @@ static void set_defaults(const command *c, void *settings)
                                settings);
 }
 
-/* The value of the last `flag` among the arguments; NULL where there is none. */
+/* The value of the last `flag` among the arguments; NULL if there is none. */
 static const char *last_value(const char *flag, int argc, char **argv)
 {
     const size_t length = strlen(flag);
@@ -232,7 +231,7 @@ static int set_library_option(const char *flag, size_t length, const char *text,
     return EXIT_USAGE;
 }
 
-/* One flag at argv[*i], which moves on to the flag's value where that stands apart. */
+/* One flag at argv[*i], which moves on to the flag's value if that is a word of its own. */
 static int parse_flag(const command *c, int argc, char **argv, int *i, void *settings,
                       report *r)
 {

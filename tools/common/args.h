@@ -15,7 +15,7 @@ typedef enum arg_type {
     ARG_TEXT,   /* const char *; NULL unless given */
     ARG_TEXTS,  /* arg_texts; may be given again, also as the last one without a flag */
     ARG_INT,    /* arg_int */
-    ARG_NUMBER, /* arg_number; infinite only where max is */
+    ARG_NUMBER, /* arg_number; infinite only if max is */
     ARG_VECTOR, /* arg_vector: X,Y,Z */
     ARG_SIZE,   /* arg_size: WxH */
     ARG_CHOICE  /* arg_int: the index of one of the choices */
@@ -60,7 +60,7 @@ typedef struct arg {
     const char *const *choices; /* NULL-terminated */
     const char *unit;
     const char *initial;  /* the default as the user would write it; parsed like it */
-    const char *computed; /* in help, where the default depends on the input */
+    const char *computed; /* in help, if the default depends on the input */
     const char *help;
 } arg;
 
@@ -113,14 +113,14 @@ typedef struct command {
  * or, after an error line, EXIT_USAGE. */
 int args_parse(const command *c, int argc, char **argv, void *settings, report *r);
 
-/* The method that these arguments choose, the default one where they name none that
+/* The method that these arguments choose, the default one if they name none that
  * there is. For help; args_parse() finds it by itself. */
 const crv_method *args_method(const command *c, int argc, char **argv);
 
-/* Reads one value into the row's member; false where it is not valid. */
+/* Reads one value into the row's member; false if it is not valid. */
 bool args_set_value(const arg *row, const char *text, void *settings);
 
-/* What values a row takes ("0.1 to 179 degrees"), "" where any text is fine. */
+/* What values a row takes ("0.1 to 179 degrees"), "" if any text is fine. */
 void args_describe_values(const arg *row, char *out, size_t size);
 
 /* Whether an option that the user wrote, without its dashes, is one of the library. */

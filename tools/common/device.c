@@ -29,11 +29,13 @@ static const arg device_rows[] = {
      .initial = "auto",
      .offset = offsetof(common_settings, isa),
      .help =
-         "instruction set of the CPU's kernels; auto: the best that this machine has"},
+         "instruction set of the CPU's kernels; auto: the fastest that is here. Others "
+         "are for comparing"},
     {.name = "--exact",
      .type = ARG_FLAG,
      .offset = offsetof(common_settings, exact),
-     .help = "on the CPU, sample exactly where the plain code does: slower, no better"},
+     .help = "on the CPU, sample exactly where the reference code does: up to 4 times "
+             "slower and no better; for comparing with other devices"},
 };
 const arg_table args_device = ARG_TABLE("Device", device_rows);
 
@@ -64,7 +66,7 @@ bool device_is_cpu(const common_settings *common)
     return !common->device || strcmp(common->device, "cpu") == 0;
 }
 
-/* Reads --device; false where it names nothing. */
+/* Reads --device; false if it names nothing. */
 static bool parse_device(const char *name, crv_context_desc *desc)
 {
     int index = 0, end = 0;

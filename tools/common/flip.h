@@ -20,7 +20,7 @@
 /*
  * The mean over the compared pixels, 0 (equal) to 1; NAN without one. Values are grey
  * levels as a screen shows them (sRGB), and are clamped to [0, 1]. a, b, mask: as in
- * metrics.h; what is not compared counts as white in both pictures, since filters reach
+ * metrics.h; what is not compared counts as white in both pictures, since filters read
  * into it. ppd: pixels per degree of the visual field. Returns false where memory ran
  * out.
  */

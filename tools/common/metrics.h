@@ -16,7 +16,7 @@ typedef struct metrics {
     double psnr_db; /* of a peak of 1; INFINITY for equal pictures */
     /* Wang, Bovik, Sheikh, Simoncelli 2004: 11x11 Gaussian windows of sigma 1.5, K1 0.01,
      * K2 0.03, dynamic range 1, over the windows that lie wholly inside the picture and
-     * hold compared pixels only. NAN where there is none. */
+     * hold compared pixels only. NAN if there is none. */
     double ssim;
     int64_t ssim_windows;
     double max_error; /* largest |a - b|, first met from the top left */
@@ -25,7 +25,7 @@ typedef struct metrics {
 
 /* a, b: width * height packed floats. mask: a byte for each pixel, nonzero to compare it,
  * or NULL for all; compared values must be finite. Without a pixel to compare, all
- * numbers are NAN. Returns false where memory ran out. */
+ * numbers are NAN. Returns false if memory ran out. */
 bool metrics_compare(const float *a, const float *b, const uint8_t *mask, int32_t width,
                      int32_t height, metrics *out);
 

@@ -117,7 +117,7 @@ static double limited(double value, double factor_log, double low, double high)
     return fmin(fmax(value * exp(factor_log), low), high);
 }
 
-/* A damped step from a curve; the intensity stays where it is `fixed`. Where the power
+/* A damped step from a curve; the intensity stays where it is `fixed`. If the power
  * comes to an end of its range, the intensity makes the best of that. */
 static metrics_curve step(const slope *at, const metrics_curve *from, double damping,
                           bool fixed)
@@ -197,7 +197,7 @@ static double best_intensity(const samples *s)
 
     for (size_t i = 0; i < s->count; i++)
         black += s->at[i].wanted * s->at[i].wanted;
-    least -= 1e-14 * black; /* where s does not matter, rounding shall not choose it */
+    least -= 1e-14 * black; /* if s does not matter, rounding shall not choose it */
     for (size_t m = s->count;; m--) {
         if (m < s->count) {
             const sample *p = &s->at[m];

@@ -27,7 +27,7 @@ typedef struct metrics_fit {
 } metrics_fit;
 
 /* a, b, mask: as in metrics.h. What cannot matter stays 1. All numbers are NAN without a
- * pixel to compare. Returns false where memory ran out. */
+ * pixel to compare. Returns false if memory ran out. */
 bool metrics_fit_curves(const float *a, const float *b, const uint8_t *mask,
                         int32_t width, int32_t height, metrics_fit *out);
 

@@ -6,7 +6,7 @@
 #include "args.h"
 #include "io.h"
 
-/* EXIT_DONE, or an error line where writing there would replace `input` (NULL: none). */
+/* EXIT_DONE, or an error line if writing there would replace `input` (NULL: none). */
 int output_spare(const char *path, const char *input, report *r);
 
 /* The same for each of them. */

@@ -35,7 +35,7 @@ void report_warning(report *r, const char *format, ...) REPORT_PRINTF;
 void report_info(report *r, const char *format, ...) REPORT_PRINTF;
 void report_detail(report *r, const char *format, ...) REPORT_PRINTF;
 
-/* True where status is CRV_OK; otherwise sees to it that an error line has been written,
+/* True if status is CRV_OK; otherwise sees to it that an error line has been written,
  * `doing` being what failed. */
 bool report_ok(report *r, crv_status status, const char *doing);
 

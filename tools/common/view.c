@@ -82,7 +82,9 @@ static const arg buffer_rows[] = {
      .max = CRV_MAX_LAYERS,
      .initial = "1",
      .offset = offsetof(view_settings, layers),
-     .help = "depth layers: further ones occlude from behind the first surface"},
+     .help = "depth layers: further ones occlude from behind the first surface. A second "
+             "one can halve the error if near things hide far ones; `crevice methods` "
+             "says who reads it"},
     {.name = "--layer-kind",
      .value = "KIND",
      .type = ARG_CHOICE,
@@ -106,8 +108,8 @@ static const arg buffer_rows[] = {
      .unit = "px",
      .offset = offsetof(view_settings, guard_px),
      .computed = "a tenth of the height",
-     .help = "width of the band beyond each border of the picture that occludes, so "
-             "that occlusion does not fade there"},
+     .help = "width of the band beyond each border of the picture that occludes; with 0 "
+             "occlusion fades at the borders"},
 };
 const arg_table view_buffers = ARG_TABLE("Buffers", buffer_rows);
 
@@ -244,7 +246,7 @@ static int choose_camera(const view_settings *s, const scene *model, scene_view 
     return EXIT_DONE;
 }
 
-/* The framed view, changed where the user says so. An eye alone looks at the scene's
+/* The framed view, changed as the user says. An eye alone looks at the scene's
  * centre; a target alone is seen from the framed direction and distance. */
 static int choose_view(const view_settings *s, const scene *model, scene_view *v,
                        report *r)

@@ -46,7 +46,7 @@ int view_check(const view_settings *s, report *r);
 /* Loads the model, or makes the built-in one. */
 int view_load(const view_settings *s, scene **out, report *r);
 
-/* Chooses the camera and ray-casts the G-buffer, texture frames included where they are
+/* Chooses the camera and ray-casts the G-buffer, texture frames included if they are
  * wanted. */
 int view_render(const view_settings *s, const scene *model, bool texture_frames,
                 scene_gbuffer *out, report *r);
@@ -57,7 +57,7 @@ int32_t view_guard_px(const view_settings *s);
 /* Whether any pixel inside the guard band shows a surface. */
 bool view_shows_something(const scene_gbuffer *g);
 
-/* sin^2 of the angle between the view's direction and its up; NAN where the view is a
+/* sin^2 of the angle between the view's direction and its up; NAN if the view is a
  * point. */
 double view_up_slant(const scene_view *v);
 

@@ -43,7 +43,7 @@ static const arg compare_rows[] = {
      .type = ARG_TEXT,
      .offset = offsetof(compare_settings, channel_b),
      .computed = "as for A",
-     .help = "the channel of B, where its name differs"},
+     .help = "the channel of B, if its name differs"},
     {.name = "--ppd",
      .value = "X",
      .type = ARG_NUMBER,
@@ -103,7 +103,7 @@ static const char *choose_channel(const char *path, const io_image *probe,
     const char *grey[] = {"AO", "Y"};
 
     if (wanted)
-        return wanted; /* io_read() says which there are where it is not one of them */
+        return wanted; /* io_read() lists them if it is not one of them */
     if (probe->channel_count == 1)
         return probe->channels[0].name;
     for (size_t i = 0; i < sizeof grey / sizeof grey[0]; i++)
@@ -160,7 +160,7 @@ static bool is_background(const picture *p, size_t i)
         return false;
     const double x = (double)p->normal[0][i], y = (double)p->normal[1][i],
                  z = (double)p->normal[2][i];
-    /* Where a renderer averaged over a silhouette the mean normal is shorter than one. */
+    /* A renderer's mean over a silhouette is shorter than one. */
     return !(fabs(sqrt(x * x + y * y + z * z) - 1.0) <= 0.01);
 }
 
@@ -279,9 +279,9 @@ const command command_compare = {
                "error, best fits, heat map",
     .synopsis = "A B [--channel NAME] [--heat-map FILE] [--json]",
     .details =
-        "Pixels that are background in either file are left out: where a channel Z "
-        "is not finite, not positive or at least 1e10, and where the normals N.X, "
-        "N.Y, N.Z are not of unit length (1 % off). SSIM is the mean over 11x11 "
+        "Pixels that are background in either file are left out: those whose Z is not "
+        "finite, not positive or at least 1e10, and those whose normals N.X, N.Y, N.Z "
+        "are not of unit length (1 % off). SSIM is the mean over 11x11 "
         "windows without such pixels. FLIP (Andersson et al. 2020) is the mean of the "
         "difference seen when the pictures alternate on a screen, their values shown as "
         "sRGB grey and the background white. Signed errors are A - B: bias is their "

@@ -35,7 +35,7 @@ static const arg file_rows[] = {
     {.name = "--resume",
      .type = ARG_FLAG,
      .offset = offsetof(reference_settings, resume),
-     .help = "go on from FILE.checkpoint where there is one"},
+     .help = "go on from FILE.checkpoint if there is one"},
 };
 static const arg_table file_table = ARG_TABLE("Files", file_rows);
 
@@ -116,7 +116,8 @@ static const arg ray_rows[] = {
      .max = REFERENCE_MAX_RAYS,
      .initial = "256",
      .offset = offsetof(reference_settings, rays),
-     .help = "rays for each pixel, at most"},
+     .help = "rays for each pixel, at most. 256 leave a standard error of 0.03 at most; "
+             "four times as many halve it"},
     {.name = "--max-error",
      .value = "E",
      .type = ARG_NUMBER,
@@ -125,7 +126,7 @@ static const arg ray_rows[] = {
      .initial = "0",
      .offset = offsetof(reference_settings, max_error),
      .help = "a pixel is done when its standard error is that small, after 64 rays and "
-             "1/E of them at least; 0: always take all"},
+             "1/E of them at least; 0: always take all. 0.005 is enough to compare with"},
     {.name = "--seed",
      .value = "N",
      .type = ARG_INT,
@@ -133,7 +134,7 @@ static const arg ray_rows[] = {
      .max = 2147483647,
      .initial = "0",
      .offset = offsetof(reference_settings, seed),
-     .help = "other random numbers"},
+     .help = "other random numbers: the difference of two seeds shows the noise"},
 };
 static const arg_table ray_table = ARG_TABLE("Rays", ray_rows);
 
