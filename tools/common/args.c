@@ -231,7 +231,7 @@ static int set_library_option(const char *flag, size_t length, const char *text,
     return EXIT_USAGE;
 }
 
-/* One flag at argv[*i], which moves on to the flag's value if that is a word of its own. */
+/* One flag at argv[*i], which moves on to the flag's value if that is the next word. */
 static int parse_flag(const command *c, int argc, char **argv, int *i, void *settings,
                       report *r)
 {

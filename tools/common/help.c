@@ -19,23 +19,26 @@ static const help_style plain = {.opening = open_plain,
                                  .item = write_item,
                                  .closing = close_plain};
 
-/* Words of text from column `column` on, indented by `indent` where a line breaks. */
+/* Words of text from column `column` on, indented by `indent` if a line breaks: at
+ * spaces, or after a '|'. */
 static void write_wrapped(FILE *out, const char *text, int column, int indent)
 {
-    bool first = true;
+    bool first = true, space = false;
 
     while (*text != '\0') {
-        const int length = (int)strcspn(text, " ");
+        const size_t part = strcspn(text, " |");
+        const int length = (int)part + (text[part] == '|');
 
-        if (!first && column + 1 + length > WIDTH) {
+        if (!first && column + space + length > WIDTH) {
             fprintf(out, "\n%*s", indent, "");
             column = indent;
-            first = true;
+            space = false;
         }
-        fprintf(out, "%s%.*s", first ? "" : " ", length, text);
-        column += length + !first;
+        fprintf(out, "%s%.*s", space ? " " : "", length, text);
+        column += length + space;
         first = false;
         text += length;
+        space = *text == ' ';
         text += strspn(text, " ");
     }
     fputc('\n', out);

@@ -30,6 +30,8 @@ static void put_text(FILE *out, const char *text)
             fputs("\\e", out);
         } else if (*text == '-') {
             fputs("\\-", out);
+        } else if (*text == '|') {
+            fputs("|\\:", out); /* may break here */
         } else {
             fprintf(out, begins && (*text == '.' || *text == '\'') ? "\\&%c" : "%c",
                     *text);
@@ -49,7 +51,8 @@ static void put_title(FILE *out, const char *name)
     fputs(".TH ", out);
     for (const char *p = name; *p != '\0'; p++)
         fputc(*p >= 'a' && *p <= 'z' ? *p - 'a' + 'A' : *p, out);
-    fprintf(out, " 1 \"\" \"Crevice %s\" \"User Commands\"\n.SH NAME\n", crv_version());
+    fprintf(out, " 1 \"\" \"Crevice %s\" \"User Commands\"\n.ad l\n.SH NAME\n",
+            crv_version());
     put_line(out, name);
 }
 
