@@ -203,7 +203,7 @@ static void add_steps(mesh *m, const place *world)
     }
 }
 
-/* Base, fluted shaft and, where it has one, capital. */
+/* Base, fluted shaft and, if asked for, capital. */
 static void add_column(mesh *m, const place *at, double height, bool capital)
 {
     static const profile_point base[] = {

@@ -4,6 +4,7 @@
 
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -84,4 +85,21 @@ bool check_mesh_file(const char *path, const crv_logger *log)
         return false;
     }
     return true;
+}
+
+unsigned char *read_whole_file(const char *path, size_t *size)
+{
+    FILE *file = fopen(path, "rb");
+    unsigned char *data = NULL;
+    if (file && fseek(file, 0, SEEK_END) == 0) {
+        const long length = ftell(file);
+        data = length >= 0 ? malloc((size_t)length + 1) : NULL;
+        rewind(file);
+        *size = data ? fread(data, 1, (size_t)length, file) : 0;
+        if (data)
+            data[*size] = 0;
+    }
+    if (file)
+        fclose(file);
+    return data;
 }

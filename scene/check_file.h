@@ -14,4 +14,7 @@
  */
 bool check_mesh_file(const char *path, const crv_logger *log);
 
+/* The whole file with a zero behind it (malloc); NULL: it cannot be read. */
+unsigned char *read_whole_file(const char *path, size_t *size);
+
 #endif

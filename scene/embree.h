@@ -15,7 +15,7 @@ typedef struct RTCRayQueryContext embree_context;
 
 #define EMBREE_SCENE_FLAG_FILTER RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS
 
-/* Finds the nearest hit; rh->hit.geomID stays RTC_INVALID_GEOMETRY_ID where there is
+/* Finds the nearest hit; rh->hit.geomID stays RTC_INVALID_GEOMETRY_ID if there is
  * none. */
 static inline void embree_intersect(RTCScene rtc, struct RTCRayHit *rh)
 {
@@ -41,7 +41,7 @@ static inline void embree_intersect_filtered(RTCScene rtc, struct RTCRayHit *rh,
     rtcIntersect1(rtc, rh, &arguments);
 }
 
-/* Embree sets tfar to -infinity where the ray is blocked. */
+/* Embree sets tfar to -infinity if the ray is blocked. */
 static inline bool embree_occluded(RTCScene rtc, struct RTCRay *ray)
 {
     rtcOccluded1(rtc, ray, NULL);

@@ -56,7 +56,7 @@ void gltf_close(gltf *g);
 /* The error line "FILE: is damaged: WHAT; export it again", once. */
 void gltf_refuse(gltf *g, const char *what);
 
-/* Members of an object; the default where it is missing. -1: no index. */
+/* Members of an object; the default if it is missing. -1: no index. */
 int gltf_index(const cJSON *object, const char *key);
 double gltf_number(const cJSON *object, const char *key, double initial);
 const char *gltf_text(const cJSON *object, const char *key);

@@ -90,7 +90,7 @@ static bool find_elements(gltf *g, int view, double offset, layout *l)
         && !(offset >= 0.0
              && offset + (double)(l->count - 1) * (double)l->stride + (double)element
                     <= (double)bytes.size)) {
-        gltf_refuse(g, "an accessor reaches beyond its buffer view");
+        gltf_refuse(g, "an accessor ends beyond its buffer view");
         return false;
     }
     l->data = bytes.data + (size_t)offset;

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "check_file.h"
 #include "internal.h"
 
 enum { GLB_HEADER = 12, GLB_CHUNK = 8 };
@@ -80,24 +81,6 @@ static uint32_t word_at(const unsigned char *p)
            | (uint32_t)p[3] << 24;
 }
 
-/* The whole file with a zero behind it; NULL: it cannot be read. */
-static unsigned char *read_whole(const char *path, size_t *size)
-{
-    FILE *file = fopen(path, "rb");
-    unsigned char *data = NULL;
-    if (file && fseek(file, 0, SEEK_END) == 0) {
-        const long length = ftell(file);
-        data = length >= 0 ? malloc((size_t)length + 1) : NULL;
-        rewind(file);
-        *size = data ? fread(data, 1, (size_t)length, file) : 0;
-        if (data)
-            data[*size] = 0;
-    }
-    if (file)
-        fclose(file);
-    return data;
-}
-
 static bool ends_with(const char *path, const char *extension)
 {
     const size_t length = strlen(path), tail = strlen(extension);
@@ -116,7 +99,7 @@ bool gltf_is(const char *path)
     if (!ends_with(path, ".gltf"))
         return false;
     size_t size = 0;
-    unsigned char *text = read_whole(path, &size);
+    unsigned char *text = read_whole_file(path, &size);
     cJSON *root = text ? cJSON_ParseWithLength((const char *)text, size) : NULL;
     const char *version = gltf_text(gltf_member(root, "asset"), "version");
     /* What is no JSON is refused here rather than by assimp. */
@@ -238,7 +221,7 @@ static gltf_bytes read_uri(const gltf *g, const char *uri)
     if (strncmp(uri, "data:", 5) == 0)
         return decode_data(uri);
     char *path = path_beside(g, uri);
-    bytes.owned = path ? read_whole(path, &bytes.size) : NULL;
+    bytes.owned = path ? read_whole_file(path, &bytes.size) : NULL;
     bytes.data = bytes.owned;
     free(path);
     return bytes;
@@ -293,7 +276,7 @@ gltf_bytes gltf_view(gltf *g, int view)
     }
     if (!(offset >= 0.0 && length >= 0.0
           && offset + length <= (double)g->buffers[buffer].size)) {
-        gltf_refuse(g, "a buffer view reaches beyond its buffer");
+        gltf_refuse(g, "a buffer view ends beyond its buffer");
         return none;
     }
     return (gltf_bytes){.data = g->buffers[buffer].data + (size_t)offset,
@@ -324,7 +307,7 @@ bool gltf_open(const char *path, const crv_logger *log, gltf *out)
                  {"samplers", offsetof(gltf, samplers)},
                  {"cameras", offsetof(gltf, cameras)}};
     *out = (gltf){.path = path, .log = log};
-    out->file = read_whole(path, &out->file_size);
+    out->file = read_whole_file(path, &out->file_size);
     out->root = out->file ? parse(out) : NULL;
     if (!cJSON_IsObject(out->root)) {
         scene_log(log, CRV_LOG_ERROR, path,

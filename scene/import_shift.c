@@ -7,6 +7,8 @@
 #include <string.h>
 #include <strings.h>
 
+#include "check_file.h"
+
 /* Text that grows. */
 typedef struct text {
     char *data;
@@ -30,24 +32,6 @@ static void append(text *t, const char *data, size_t size)
     }
     memcpy(t->data + t->size, data, size);
     t->size += size;
-}
-
-/* The whole file and a zero behind it; NULL: it cannot be read. */
-static char *read_whole(const char *path, size_t *size)
-{
-    FILE *file = fopen(path, "rb");
-    char *data = NULL;
-    if (file && fseek(file, 0, SEEK_END) == 0) {
-        const long length = ftell(file);
-        data = length >= 0 ? malloc((size_t)length + 1) : NULL;
-        rewind(file);
-        *size = data ? fread(data, 1, (size_t)length, file) : 0;
-        if (data)
-            data[*size] = '\0';
-    }
-    if (file)
-        fclose(file);
-    return data;
 }
 
 /* Three numbers; *rest: what follows them. */
@@ -278,7 +262,7 @@ static void pass_ascii(const char *data, const ply *p, const double origin[3], t
         append(out, at, strlen(at));
 }
 
-/* The data itself where it is binary. */
+/* Returns the data itself if it is binary. */
 static char *shift_ply(char *data, mesh *m, size_t *size)
 {
     vec3 lower = v3(INFINITY, INFINITY, INFINITY), upper = v3_scale(lower, -1.0);
@@ -311,7 +295,7 @@ char *import_shift(const char *path, mesh *m, size_t *size)
     const bool obj = dot && strcasecmp(dot, ".obj") == 0;
     if (!obj && (!dot || strcasecmp(dot, ".ply") != 0))
         return NULL;
-    char *data = read_whole(path, size);
+    char *data = (char *)read_whole_file(path, size);
     if (!data)
         return NULL;
     char *moved = obj ? shift_obj(data, m, size) : shift_ply(data, m, size);

@@ -31,7 +31,7 @@ typedef struct scene_axes {
     vec3 eye, right, up, back;
 } scene_axes;
 
-/* False where the view's numbers make no camera. */
+/* False if the view's numbers make no camera. */
 bool scene_axes_of_view(const scene_view *view, const double origin[3], scene_axes *out);
 
 /* Logs "NAME: text" as one line: control characters of foreign text become spaces. */

@@ -53,7 +53,7 @@ typedef struct mesh {
 
 void mesh_free(mesh *m);
 
-/* Makes room for so many more; only saves time and memory. */
+/* Makes room for this many more, which saves time and memory; optional. */
 void mesh_reserve(mesh *m, size_t vertices, size_t triangles);
 
 /* Further triangles get this linear albedo, clamped to [0, 1], and no mask. */
@@ -85,7 +85,7 @@ void mesh_add_triangle(mesh *m, uint32_t a, uint32_t b, uint32_t c);
 /* Whether the point has finite coordinates within MESH_MAX_COORDINATE. */
 bool mesh_usable_position(vec3 p);
 
-/* The cross product of two edges; zero where the triangle is degenerate: its height is
+/* The cross product of two edges; zero if the triangle is degenerate: its height is
  * below the rounding of its coordinates. */
 vec3 mesh_face_normal(vec3 a, vec3 b, vec3 c);
 

@@ -57,7 +57,7 @@ typedef struct texture_frame {
     vec3 tangent, bitangent;
 } texture_frame;
 
-/* False where the triangle has no texture coordinates or they do not span it. */
+/* False if the triangle has no texture coordinates or they do not span it. */
 bool surface_texture(const scene *s, const pixel_ray *ray, const surface_hit *hit,
                      texture_frame *out);
 

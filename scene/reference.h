@@ -5,7 +5,7 @@
  *
  * A = 1 - E[V W] over directions about the normal that are drawn with the weighting's own
  * density, W the falloff at the nearest hit. Both sides of triangles block. The normal is
- * that of the G-buffer: where an interpolated one leans off its facet, rays below the
+ * that of the G-buffer: if an interpolated one deviates from its facet, rays below the
  * facet start under the surface and are blocked by it, so A is that of the triangles as
  * they are.
  */
@@ -72,11 +72,11 @@ reference_value reference_pixel(const reference *r, int32_t x, int32_t y);
 int64_t reference_total(const reference *r);
 int64_t reference_done(const reference *r);
 
-/* Computes so many more pixels with so many threads (0: OpenMP's choice). The result has
- * the same bits for any number of threads and any parts. */
+/* Computes the next `pixels` pixels with this number of threads; 0: OpenMP's choice. The
+ * result has the same bits for any number of threads and any parts. */
 void reference_advance(reference *r, int64_t pixels, int32_t threads);
 
-/* One float for each pixel inside the guard band, zero where it is not done. */
+/* One float for each pixel inside the guard band, zero if it is not done. */
 const float *reference_accessibility(const reference *r);
 const float *reference_error(const reference *r);
 

@@ -45,7 +45,7 @@ static size_t index_of(const sheet *s, int32_t x, int32_t y)
     return (size_t)y * (size_t)s->g->desc.width + (size_t)x;
 }
 
-/* 0 where there is none. */
+/* 0 if there is none. */
 static double depth_at(const sheet *s, int32_t x, int32_t y)
 {
     double d = inside(s, x, y) ? (double)s->depth[index_of(s, x, y)] : 0.0;
@@ -57,7 +57,7 @@ static double to_slope_value(const sheet *s, double depth)
     return s->ortho ? -depth : 1.0 / depth;
 }
 
-/* 0 where the plane has passed behind the viewer. */
+/* 0 if the plane has passed behind the viewer. */
 static double from_slope_value(const sheet *s, double value)
 {
     if (s->ortho)
@@ -161,7 +161,7 @@ static quarter quarter_of(const sheet *s, int32_t x, int32_t y, int32_t dx, int3
     return q;
 }
 
-/* How far back a curtain reaches from `front` where the neighbour's surface is at
+/* How far back a curtain reaches from `front` if the neighbour's surface is at
  * `other`, 0: nothing. */
 static double curtain_depth(const sheet *s, const quarter *q, double front, double other)
 {

@@ -67,7 +67,7 @@ static struct RTCRay ray_along(vec3 origin, vec3 direction, double length)
     return ray;
 }
 
-/* Distance to the nearest hit as a share of `length`; 1 where there is none. */
+/* Distance to the nearest hit as a share of `length`; 1 if there is none. */
 static double free_share(const reference *r, vec3 origin, vec3 direction, double length)
 {
     struct RTCRayHit query = {0};

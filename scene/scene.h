@@ -68,7 +68,7 @@ int64_t scene_triangle_count(const scene *s);
 void scene_bounds(const scene *s, double lower[3], double upper[3]);
 
 /* A point of world space as the scene keeps it: rounded to floats, from the scene's own
- * origin, which is near its centre where that is far from zero. Views whose numbers are
+ * origin, which is near its centre if that is far from zero. Views whose numbers are
  * the same by this are the same view. */
 void scene_local_point(const scene *s, const double world[3], float local[3]);
 
@@ -84,7 +84,7 @@ typedef struct scene_camera {
     char name[64]; /* of its node, else its own; may be empty, or another's, too */
     scene_view view;
     float aspect;   /* width / height; 0: not told */
-    float hfov_rad; /* perspective, where the file tells the horizontal field of view: the
+    float hfov_rad; /* perspective, if the file tells the horizontal field of view: the
                        vertical one follows from the picture; 0: view.vfov_rad */
 } scene_camera;
 
@@ -133,7 +133,7 @@ typedef struct scene_gbuffer {
     float *normals; /* width * height * 3, view space; background 0; owned */
     float *albedo;  /* width * height * 3, linear; background 0; owned */
     /* What crv_height_field wants of layer 0; NULL unless texture_frames. uv is NaN and
-     * the others are 0 in the background and where the mesh has no texture coordinates,
+     * the others are 0 in the background and if the mesh has no texture coordinates,
      * or none that span its surface. */
     float *uv;        /* width * height * 2: u to the right, v down over the map; owned */
     float *tangent;   /* width * height * 3, view space: dP/du of the pixel's triangle,

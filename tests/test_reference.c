@@ -493,6 +493,6 @@ int main(void)
                                        cmocka_unit_test(test_all_falloffs),
                                        cmocka_unit_test(test_all_falloffs_stop_together)};
     int result = cmocka_run_group_tests(tests, NULL, NULL);
-    remove_files();
+    remove_files(NULL);
     return result;
 }

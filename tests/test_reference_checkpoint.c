@@ -236,6 +236,6 @@ int main(void)
         cmocka_unit_test(test_foreign),    cmocka_unit_test(test_damaged),
         cmocka_unit_test(test_unwritable), cmocka_unit_test(test_options)};
     int result = cmocka_run_group_tests(tests, NULL, NULL);
-    remove_files();
+    remove_files(NULL);
     return result;
 }

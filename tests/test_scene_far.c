@@ -211,13 +211,6 @@ static void test_near_is_not_moved(void **state)
     scene_free(s);
 }
 
-static int clean(void **state)
-{
-    (void)state;
-    remove_files();
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -225,5 +218,5 @@ int main(void)
         cmocka_unit_test(test_cut_ply),
         cmocka_unit_test(test_near_is_not_moved),
     };
-    return cmocka_run_group_tests(tests, NULL, clean);
+    return cmocka_run_group_tests(tests, NULL, remove_files);
 }

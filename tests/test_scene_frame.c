@@ -174,18 +174,11 @@ static void test_builtin_parameters(void **state)
     assert_null(scene_builtin_parameter(0, 0));
 }
 
-static int clean(void **state)
-{
-    (void)state;
-    remove_files();
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_shows_whole_box),
                                        cmocka_unit_test(test_builtin_view_adapts),
                                        cmocka_unit_test(test_radius),
                                        cmocka_unit_test(test_builtin_parameters)};
-    return cmocka_run_group_tests(tests, NULL, clean);
+    return cmocka_run_group_tests(tests, NULL, remove_files);
 }

@@ -504,13 +504,6 @@ static void test_cameras(void **state)
     scene_free(s);
 }
 
-static int clean(void **state)
-{
-    (void)state;
-    remove_files();
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -520,5 +513,5 @@ int main(void)
         cmocka_unit_test(test_buffers),   cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_masks),     cmocka_unit_test(test_cameras),
     };
-    return cmocka_run_group_tests(tests, NULL, clean);
+    return cmocka_run_group_tests(tests, NULL, remove_files);
 }

@@ -158,13 +158,6 @@ static void test_signals_of_the_host(void **state)
     scene_free(s);
 }
 
-static int clean(void **state)
-{
-    (void)state;
-    remove_files();
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -177,5 +170,5 @@ int main(void)
         cmocka_unit_test(test_skin_at_rest),
         cmocka_unit_test(test_signals_of_the_host),
     };
-    return cmocka_run_group_tests(tests, NULL, clean);
+    return cmocka_run_group_tests(tests, NULL, remove_files);
 }

@@ -244,13 +244,6 @@ static void test_order(void **state)
     scene_free(s);
 }
 
-static int clean(void **state)
-{
-    (void)state;
-    remove_files();
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_next_surfaces),
@@ -259,5 +252,5 @@ int main(void)
                                        cmocka_unit_test(test_sheet_has_no_thickness),
                                        cmocka_unit_test(test_coincident_surfaces_are_one),
                                        cmocka_unit_test(test_order)};
-    return cmocka_run_group_tests(tests, NULL, clean);
+    return cmocka_run_group_tests(tests, NULL, remove_files);
 }

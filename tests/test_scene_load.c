@@ -361,13 +361,6 @@ static void test_builtin_names(void **state)
     assert_non_null(strstr(m.error, "groove"));
 }
 
-static int clean(void **state)
-{
-    (void)state;
-    remove_files();
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -381,5 +374,5 @@ int main(void)
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_truncated_ply),
         cmocka_unit_test(test_builtin_names)};
-    return cmocka_run_group_tests(tests, NULL, clean);
+    return cmocka_run_group_tests(tests, NULL, remove_files);
 }

@@ -195,18 +195,11 @@ static void test_groove(void **state)
     scene_free(s);
 }
 
-static int clean(void **state)
-{
-    (void)state;
-    remove_files();
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_planes), cmocka_unit_test(test_back_of_plane_is_turned),
         cmocka_unit_test(test_sphere), cmocka_unit_test(test_corner),
         cmocka_unit_test(test_groove)};
-    return cmocka_run_group_tests(tests, NULL, clean);
+    return cmocka_run_group_tests(tests, NULL, remove_files);
 }

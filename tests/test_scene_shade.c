@@ -53,7 +53,7 @@ static int free_picture(void **state)
     scene_gbuffer_free(&p->gbuffer);
     scene_free(p->scene);
     free(p);
-    remove_files();
+    remove_files(NULL);
     return 0;
 }
 

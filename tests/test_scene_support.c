@@ -63,19 +63,21 @@ const char *write_text(const char *name, const char *text)
     return write_file(name, text, strlen(text));
 }
 
-void remove_files(void)
+int remove_files(void **state)
 {
+    (void)state;
     char path[512];
     DIR *folder = opendir(test_folder());
     struct dirent *entry;
     assert_non_null(folder);
-    while ((entry = readdir(folder)) != NULL) {
+    while ((entry = readdir(folder))) {
         snprintf(path, sizeof path, "%s/%.255s", test_folder(), entry->d_name);
         if (entry->d_name[0] != '.')
             unlink(path);
     }
     closedir(folder);
     rmdir(test_folder());
+    return 0;
 }
 
 scene *load_text(const char *name, const char *text)

@@ -31,11 +31,11 @@ crv_logger catch_messages(messages *m);
 void assert_error_line(const messages *m, const char *name);
 
 /* Writes a file into a folder of this process's own and returns its path (static,
- * until the next call). remove_files() removes the folder. */
+ * until the next call). remove_files(), a group's teardown, removes the folder. */
 const char *write_file(const char *name, const void *data, size_t size);
 const char *write_text(const char *name, const char *text);
 const char *test_folder(void);
-void remove_files(void);
+int remove_files(void **state);
 
 /* Loads a text file that must load without a message. */
 scene *load_text(const char *name, const char *text);

@@ -311,13 +311,6 @@ static void test_library_takes_it(void **state)
     scene_free(s);
 }
 
-static int clean(void **state)
-{
-    (void)state;
-    remove_files();
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -329,5 +322,5 @@ int main(void)
         cmocka_unit_test(test_sphere),
         cmocka_unit_test(test_builtin_maps_are_not_mirrored),
         cmocka_unit_test(test_library_takes_it)};
-    return cmocka_run_group_tests(tests, NULL, clean);
+    return cmocka_run_group_tests(tests, NULL, remove_files);
 }

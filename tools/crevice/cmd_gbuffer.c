@@ -74,7 +74,7 @@ const command command_gbuffer = {
     .summary = "depth layers, normals and camera of a mesh as an EXR file",
     .synopsis = "MODEL -o FILE.exr [options]",
     .details =
-        "Channels: Z (planar depth in scene units, infinite where there is nothing), "
+        "Channels: Z (planar depth in scene units, infinite for the background), "
         "layer2.Z to layer4.Z (solid2.Z to solid4.Z with --layer-kind solid, so that "
         "`crevice ao` knows), N.X N.Y N.Z (world space), all 32-bit floats. The "
         "camera is in worldToCamera and worldToNDC; the guard band is overscan: the "

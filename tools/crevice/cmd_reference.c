@@ -316,7 +316,7 @@ const command command_reference = {
     .synopsis = "MODEL -o FILE.exr [options]",
     .details =
         "Channels: AO, AO.stderr (its estimated standard error), Z and N.X N.Y N.Z. Both "
-        "sides of triangles occlude. Where an interpolated normal leans off its "
+        "sides of triangles occlude. If an interpolated normal deviates from its "
         "triangle, "
         "rays below the triangle are blocked by it, so the result is that of the "
         "triangles "

@@ -23,7 +23,7 @@ int reference_run_check(reference_run *run, const char *output, bool resume, rep
 int reference_run_all(reference_run *run, const char *output, bool resume, int32_t rays,
                       int32_t threads, report *r);
 
-/* Keeps the finished work on disk, where the picture could not be written. */
+/* Keeps the finished work on disk, if the picture could not be written. */
 void reference_run_keep(reference_run *run, report *r);
 
 /* Removes the checkpoint, after the picture has been written. */

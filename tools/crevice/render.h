@@ -22,7 +22,7 @@ typedef struct render_settings {
     arg_vector zenith;
 } render_settings;
 
-/* relief.c: height maps. All do nothing where there is none. */
+/* relief.c: height maps. All do nothing without one. */
 extern const arg_table relief_table;
 
 /* Before anything is loaded: whether the method takes one, and so on. */
