@@ -36,6 +36,9 @@ void io__exr_say_nothing(exr_const_context_t context, exr_result_t code,
 /* Logs `what` with what the code means, or why the disk could not be read; returns -1. */
 int io__exr_fail(const io__exr *exr, exr_result_t code, const char *what);
 
+/* The field of view in the attributes of a part, as renderers name them (lens.c). */
+void io__exr_find_lens(const io__exr *exr, int part, io_lens *lens);
+
 /* Windows, pixel aspect and camera; the data window is that of `part`. The channels are
  * left alone. */
 int io__exr_metadata(const io__exr *exr, int part, io_image *image);

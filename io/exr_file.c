@@ -251,6 +251,13 @@ int io__exr_metadata(const io__exr *exr, int part, io_image *image)
     image->display_width = (int32_t)display_width;
     image->display_height = (int32_t)display_height;
     image->pixel_aspect = aspect;
+    io__exr_find_lens(exr, part, &image->lens);
+    const char *made = NULL;
+    int32_t length = 0;
+    if (exr_attr_get_string(exr->context, part, "crevice", &length, &made)
+            == EXR_ERR_SUCCESS
+        && made)
+        snprintf(image->made, sizeof image->made, "%s", made);
     image->camera.has_world_to_camera =
         find_matrix(exr, part, "worldToCamera", image->camera.world_to_camera);
     image->camera.has_world_to_ndc =

@@ -93,6 +93,8 @@ static exr_result_t write_header(writer *w)
         code = exr_add_channel(w->context, w->part, name, w->type,
                                EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
     }
+    if (!code && image->made[0])
+        code = exr_attr_set_string(w->context, w->part, "crevice", image->made);
     if (!code && camera->has_world_to_camera)
         code = set_matrix(w, "worldToCamera", camera->world_to_camera);
     if (!code && camera->has_world_to_ndc)

@@ -50,6 +50,12 @@ bool io_keeps_windows(const char *path)
     return format_by_extension(path) == &io__format_exr;
 }
 
+bool io_keeps_made(const char *path)
+{
+    const io__format *format = format_by_extension(path);
+    return format == &io__format_exr || format == &io__format_png;
+}
+
 static int open_for_reading(const char *path, const crv_logger *log, io__file *file)
 {
     struct stat status;

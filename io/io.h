@@ -32,6 +32,14 @@ typedef struct io_camera_metadata {
                                dividing by w */
 } io_camera_metadata;
 
+/* The field of view that other attributes than matrices tell; 0: none. */
+typedef struct io_lens {
+    float hfov_rad, vfov_rad; /* one of them */
+    char source[64];          /* the attribute, for messages */
+} io_lens;
+
+#define IO_MADE_SIZE 1024
+
 typedef struct io_image {
     int32_t width, height; /* of the data window: what the channels hold */
     /* Where the data window's top left pixel lies inside the display window (negative
@@ -40,6 +48,10 @@ typedef struct io_image {
     int32_t data_x, data_y, display_width, display_height;
     float pixel_aspect;
     io_camera_metadata camera;
+    io_lens lens; /* read only */
+    /* What made the picture: the string attribute or text "crevice" of EXR and PNG files,
+     * "" if there is none. */
+    char made[IO_MADE_SIZE];
     int32_t channel_count;
     /* Owned. The pixels of all channels lie in one block, in order, so that three
      * channels in a row make one crv_image. */
@@ -87,6 +99,9 @@ typedef struct io_write_options {
  */
 int io_write(const char *path, const io_image *image, const io_write_options *options,
              const crv_logger *log);
+
+/* Whether the format that the extension names keeps io_image.made. */
+bool io_keeps_made(const char *path);
 
 /* Whether the format that the extension names keeps data and display window. */
 bool io_keeps_windows(const char *path);

@@ -94,6 +94,17 @@ static int read_header(reader *r)
     return 0;
 }
 
+/* Texts that stand before the pixels. */
+static void find_made(const reader *r, char made[IO_MADE_SIZE])
+{
+    png_textp texts = NULL;
+    int count = 0;
+    png_get_text(r->png, r->info, &texts, &count);
+    for (int i = 0; i < count; i++)
+        if (!strcmp(texts[i].key, "crevice"))
+            snprintf(made, IO_MADE_SIZE, "%s", texts[i].text);
+}
+
 static int open_reader(const io__file *file, reader *r)
 {
     memset(r, 0, sizeof *r);
@@ -171,8 +182,10 @@ static int read_png(const io__file *file, const char *const *names, int32_t coun
         result = read_rows(&r);
     if (!result)
         result = io__image_init_colour(&all, r.width, r.height, r.channels, file);
-    if (!result)
+    if (!result) {
         convert(&r, &all);
+        find_made(&r, all.made);
+    }
     close_reader(&r);
     return result ? -1 : io__select_channels(file, &all, names, count, out);
 }
@@ -183,6 +196,8 @@ static int probe_png(const io__file *file, io_image *out)
     if (open_reader(file, &r))
         return -1;
     const int result = io__probe_colour(file, r.width, r.height, r.channels, out);
+    if (!result)
+        find_made(&r, out->made);
     close_reader(&r);
     return result;
 }

@@ -82,6 +82,14 @@ static int write_all(writer *w)
      * accessibility, which is data and not light. */
     if (w->srgb)
         png_set_sRGB_gAMA_and_cHRM(w->png, w->info, PNG_sRGB_INTENT_PERCEPTUAL);
+    if (w->image->made[0]) {
+        char key[] = "crevice";
+        png_text text = {.compression = PNG_TEXT_COMPRESSION_NONE,
+                         .key = key,
+                         .text = (png_charp)(uintptr_t)w->image->made,
+                         .text_length = strlen(w->image->made)};
+        png_set_text(w->png, w->info, &text, 1);
+    }
     png_write_info(w->png, w->info);
     for (int32_t y = 0; y < w->image->height; y++) {
         if (io__output_stops(w->output))

@@ -280,6 +280,27 @@ static void set_matrix(exr_context_t context, int part, const char *name, const 
     ok(exr_attr_set_m44f(context, part, name, &matrix));
 }
 
+void support_make_lens_exr(const char *path, int32_t width, int32_t height,
+                           const char *const names[2], const float values[2])
+{
+    const support_part part = {.storage = EXR_STORAGE_SCANLINE,
+                               .compression = EXR_COMPRESSION_ZIP,
+                               .width = width,
+                               .height = height,
+                               .channel_count = 1,
+                               .channels = {"Z"},
+                               .types = {EXR_PIXEL_FLOAT}};
+    const int32_t display[4] = {0, 0, width - 1, height - 1};
+    exr_context_t context = NULL;
+    ok(exr_start_write(&context, path, EXR_WRITE_FILE_DIRECTLY, NULL));
+    declare_part(context, &part, 0, display);
+    for (int i = 0; i < 2 && names[i]; i++)
+        ok(exr_attr_set_float(context, 0, names[i], values[i]));
+    ok(exr_write_header(context));
+    write_scanlines(context, &part, 0);
+    ok(exr_finish(&context));
+}
+
 void support_make_exr(const char *path, const support_part *parts, int count,
                       const int32_t display[4], const float *world_to_camera,
                       const float *world_to_ndc)

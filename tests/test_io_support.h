@@ -73,6 +73,10 @@ void support_make_exr(const char *path, const support_part *parts, int count,
  * top. By hand, because OpenEXRCore cannot write them (seen in 3.1.5). */
 void support_turn_upside_down(const char *path, int chunks);
 
+/* Writes depth 1 with up to two float attributes; a name that is NULL is none. */
+void support_make_lens_exr(const char *path, int32_t width, int32_t height,
+                           const char *const names[2], const float values[2]);
+
 /* Writes a plain float file with these pixels: planes[c][y * width + x]. */
 void support_make_plain_exr(const char *path, const char *const *names, int count,
                             int32_t width, int32_t height, const float *const *planes);

@@ -310,17 +310,25 @@ static void test_texts_have_a_limit(void **state)
 
 static void test_frame_ranges(void **state)
 {
-    static const char *const wrong[] = {"",     "a",      "1-",    "-3",  "5-1", "1-9x0",
-                                        "1-9x", "1-9x2y", "1 - 2", "1,2", "1x2"};
-    frame_range range;
+    static const char *const wrong[] = {"",     "a",      "1-",    "--3", "5-1", "1-9x0",
+                                        "1-9x", "1-9x2y", "1 - 2", "1,",  ",1",  "1x2"};
+    frame_list list;
 
     (void)state;
-    assert_true(frames_parse("1-240x2", &range));
-    assert_true(range.first == 1 && range.last == 240 && range.step == 2);
-    assert_true(frames_parse("007", &range));
-    assert_true(range.first == 7 && range.last == 7 && range.step == 1);
+    assert_true(frames_parse("1-240x2", &list));
+    assert_int_equal(frames_count(&list), 120);
+    assert_int_equal(frames_at(&list, 0), 1);
+    assert_int_equal(frames_at(&list, 119), 239);
+    assert_true(frames_parse("007", &list));
+    assert_int_equal(frames_count(&list), 1);
+    assert_int_equal(frames_at(&list, 0), 7);
+    assert_true(frames_parse("1,3,10-20x2,-5--3", &list));
+    static const int32_t expected[] = {1, 3, 10, 12, 14, 16, 18, 20, -5, -4, -3};
+    assert_int_equal(frames_count(&list), 11);
+    for (int32_t i = 0; i < 11; i++)
+        assert_int_equal(frames_at(&list, i), expected[i]);
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
-        if (frames_parse(wrong[i], &range))
+        if (frames_parse(wrong[i], &list))
             fail_msg("taken: %s", wrong[i]);
 }
 
@@ -340,6 +348,16 @@ static void test_frame_names(void **state)
     assert_string_equal(name, "55");
     assert_true(frames_name("%s%n.#", 5, name, sizeof name));
     assert_string_equal(name, "%s%n.5");
+    assert_true(frames_name("s.@@@@.exr", 7, name, sizeof name));
+    assert_string_equal(name, "s.0007.exr");
+    assert_true(frames_name("s.$F4.exr", 7, name, sizeof name));
+    assert_string_equal(name, "s.0007.exr");
+    assert_true(frames_name("s.$F.exr", 7, name, sizeof name));
+    assert_string_equal(name, "s.7.exr");
+    assert_true(frames_name("s.<frame>.exr", 12, name, sizeof name));
+    assert_string_equal(name, "s.12.exr");
+    assert_true(frames_name("s.####.exr", -7, name, sizeof name));
+    assert_string_equal(name, "s.-007.exr");
     assert_false(frames_name("shot.####.exr", 1, name, 13));
     assert_true(frames_name("shot.####.exr", 1, name, 14));
 }

@@ -69,13 +69,53 @@ done
 grep -q '^radius: --radius 0.1, ' stderr.txt || fail "radius of the first frame"
 [ "$(grep -c '^radius: ' stderr.txt)" -eq 1 ] || fail "one radius for all frames"
 
-# A missing frame ends the run; what was written stays.
+# A missing frame costs itself alone, and the list of failures says which.
 code=0
-"$tool" ao "shot.####.pfm" --frames 1-9x4 --vfov 90 -o "gap.####.png" 2>stderr.txt || code=$?
+"$tool" ao "shot.####.pfm" --frames 1,9,5 --vfov 90 -o "gap.####.png" 2>stderr.txt || code=$?
 [ $code -eq 1 ] || fail "exit code $code for a missing frame"
 grep -q '^crevice: shot.0009.pfm: ' stderr.txt || fail "the missing frame is not named"
-[ -s gap.0001.png ] && [ -s gap.0005.png ] || fail "frames before the missing one"
+grep -q '^crevice: 1 of 3 frames failed; .*--frames 9$' stderr.txt || fail "no list of failures"
+[ -s gap.0001.png ] && [ -s gap.0005.png ] || fail "frames beside the missing one"
 [ ! -e gap.0009.png ] || fail "a picture of a missing frame"
+
+# A shot goes on where it was killed, with the same bits: the radius is taken up from the
+# results that are there, and only what is missing, cut off or made otherwise is made.
+# Two depths, so that each frame alone would choose another radius.
+pfm part.0001.pfm 2 2 1 1 1 1
+pfm part.0002.pfm 2 2 2 2 2 2
+pfm part.0003.pfm 2 2 2 2 1 2
+shot="part.####.pfm --vfov 90 --skip-existing"
+# shellcheck disable=SC2086
+good ao $shot --frames 1-3 -o "whole.####.exr"
+# shellcheck disable=SC2086
+good ao $shot --frames 1 -o "again.####.exr"
+grep -q 'warning: --radius: these frames choose their own, and part.0002.pfm' stderr.txt ||
+    fail "a part of a shot is not told"
+# shellcheck disable=SC2086
+good ao $shot --frames 1-2 -o "again.####.exr"
+head -c 100 whole.0003.exr >again.0003.exr
+rm again.0002.exr
+# shellcheck disable=SC2086
+good ao $shot --frames 1-3 -o "again.####.exr"
+grep -q '^again.0001.exr: is there' stderr.txt || fail "a result that is there is not told"
+grep -q '^again.0003.exr: is not whole' stderr.txt || fail "a result that is cut off"
+for frame in 1 2 3; do
+    cmp -s whole.000$frame.exr again.000$frame.exr || fail "frame $frame has other bits"
+done
+# shellcheck disable=SC2086
+good ao $shot --frames 1-3 -o "again.####.exr" --intensity 2
+[ "$(grep -c 'made with other settings' stderr.txt)" -eq 3 ] || fail "other settings"
+# One frame decides for any part of the shot.
+# shellcheck disable=SC2086
+good ao $shot --frames 3 --radius-frame 1 -o "third.####.exr"
+cmp -s whole.0003.exr third.0003.exr || fail "--radius-frame"
+
+# The camera by its lens: 36 mm over 18 mm is 90 degrees wide.
+good ao shot.0003.pfm --hfov 90 --radius 0.1 -o hfov.pfm
+good ao shot.0003.pfm --lens 18 --radius 0.1 -o lens.pfm
+cmp -s hfov.pfm lens.pfm || fail "--lens and --hfov differ"
+bad 2 'contradicts' ao shot.0003.pfm --vfov 60 --lens 18 -o out.exr
+bad 2 '--sensor' ao shot.0003.pfm --vfov 60 --sensor 18 -o out.exr
 
 # A later frame of another size is told of; so is one that shows nothing.
 pfm shot.0007.pfm 3 2 1 1 1 1 1 1

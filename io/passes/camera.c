@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "camera.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "internal.h"
@@ -30,16 +31,49 @@ static void tell_of_no_camera(const char *path, const io_camera_metadata *metada
         io__warn(log, path, "its worldToNDC metadata is no projection; it is ignored");
 }
 
+static crv_camera of_lens(const io_image *image, float hfov_rad, float vfov_rad)
+{
+    const int32_t width = image->display_width, height = image->display_height;
+    crv_camera camera =
+        crv_camera_perspective(width, height, vfov_rad > 0.0f ? vfov_rad : 1.0f);
+    if (vfov_rad > 0.0f) {
+        camera.fx_px = camera.fy_px / image->pixel_aspect;
+    } else {
+        camera.fx_px = 0.5f * (float)width / tanf(0.5f * hfov_rad);
+        camera.fy_px = camera.fx_px * image->pixel_aspect;
+    }
+    return camera;
+}
+
+/* What an attribute of the file says, if no matrix does. */
+static int find_lens(const char *path, const io_image *image, io__camera_guess *guess,
+                     const crv_logger *log)
+{
+    const io_lens *lens = &image->lens;
+    if (!(lens->hfov_rad > 0.0f) && !(lens->vfov_rad > 0.0f))
+        return 0;
+    *guess = (io__camera_guess){.camera = of_lens(image, lens->hfov_rad, lens->vfov_rad),
+                                .text = "a field of view in the file's metadata"};
+    guess->has_rotation = find_rotation(&image->camera, guess);
+    io__info(log, path, "its attribute %s says a %s field of view of %.2f degrees",
+             lens->source, lens->vfov_rad > 0.0f ? "vertical" : "horizontal",
+             (double)(lens->vfov_rad > 0.0f ? lens->vfov_rad : lens->hfov_rad)
+                 * 57.29577951308232);
+    return 1;
+}
+
 /* What the caller says, with the rotation that the file says. */
 static int find_given(const io_image *image, const io_passes_request *request,
                       const io__ndc_camera *described, io__camera_guess *guess)
 {
     const int32_t width = image->display_width, height = image->display_height;
     *guess = (io__camera_guess){.text = "as given"};
-    guess->camera = request->vfov_rad > 0.0f
-                        ? crv_camera_perspective(width, height, request->vfov_rad)
-                        : crv_camera_orthographic(width, height, request->view_height);
-    guess->camera.fx_px /= image->pixel_aspect;
+    if (request->hfov_rad > 0.0f || request->vfov_rad > 0.0f) {
+        guess->camera = of_lens(image, request->hfov_rad, request->vfov_rad);
+    } else {
+        guess->camera = crv_camera_orthographic(width, height, request->view_height);
+        guess->camera.fx_px /= image->pixel_aspect;
+    }
     guess->has_rotation = described || find_rotation(&image->camera, guess);
     if (described)
         memcpy(guess->to_view, described->to_view, sizeof guess->to_view);
@@ -54,10 +88,14 @@ int io__find_cameras(const char *path, const io_image *image,
     io__ndc_camera described[2];
     int count = io__cameras_from_ndc(&image->camera, image->display_width,
                                      image->display_height, described);
+    const bool is_given = request->vfov_rad > 0.0f || request->hfov_rad > 0.0f
+                          || request->view_height > 0.0f;
     if (count == 0)
         tell_of_no_camera(path, &image->camera, log);
-    if (request->vfov_rad > 0.0f || request->view_height > 0.0f) {
+    if (is_given) {
         count = find_given(image, request, count ? &described[0] : NULL, &out[0]);
+    } else if (count == 0 && find_lens(path, image, &out[0], log)) {
+        count = 1;
     } else if (count == 0) {
         return io__fail(log, path, "does not say which camera made it; %s",
                         request->remedies.camera

@@ -19,10 +19,15 @@ static const float pi = 3.14159265358979f;
 static int check_request(const char *path, const io_passes_request *request,
                          const crv_logger *log)
 {
-    const float vfov = request->vfov_rad, height = request->view_height;
+    const float vfov = request->vfov_rad != 0.0f ? request->vfov_rad : request->hfov_rad;
+    const float height = request->view_height;
+    if (request->vfov_rad != 0.0f && request->hfov_rad != 0.0f)
+        return io__fail(log, path,
+                        "both a vertical and a horizontal field of view are given; give "
+                        "one of them");
     if (vfov != 0.0f && !(vfov > 0.0f && vfov < pi))
         return io__fail(log, path,
-                        "the vertical field of view must lie between 0 and 180 degrees; "
+                        "the field of view must lie between 0 and 180 degrees; "
                         "give 60 or the like");
     if (height != 0.0f && !(height > 0.0f && isfinite(height)))
         return io__fail(log, path,
@@ -100,20 +105,37 @@ static crv_image view_of(const io_image *image, int32_t first, int32_t channels)
                        .channel_stride = row * image->height};
 }
 
-/* Overscan becomes the guard band; a data window inside the picture moves the origin. */
-static int set_desc(const char *path, const io_image *image, int32_t layers,
-                    crv_gbuffer_desc *desc, const crv_logger *log)
+static bool is_our_gbuffer(const io_image *image)
+{
+    return !strncmp(image->made, "crevice ", 8) && strstr(image->made, " gbuffer");
+}
+
+/* Overscan becomes the guard band, unless it is kept; a data window inside the picture
+ * moves the origin. */
+static int set_desc(const char *path, const io_passes_request *request,
+                    const io_image *image, int32_t layers, crv_gbuffer_desc *desc,
+                    const crv_logger *log)
 {
     const int64_t right = (int64_t)image->data_x + image->width - image->display_width;
     const int64_t bottom = (int64_t)image->data_y + image->height - image->display_height;
+    const bool outside = image->data_x <= -(int64_t)image->width
+                         || image->data_y <= -(int64_t)image->height
+                         || right >= image->width || bottom >= image->height;
     crv_gbuffer_desc_init(desc, sizeof *desc, image->width, image->height);
-    if (image->data_x <= -(int64_t)image->width
-        || image->data_y <= -(int64_t)image->height || right >= image->width
-        || bottom >= image->height)
+    desc->layers = layers;
+    if (request->keep_overscan && !is_our_gbuffer(image)) {
+        desc->origin_x = image->data_x;
+        desc->origin_y = image->data_y;
+        if (outside)
+            io__warn(log, path,
+                     "its data window lies outside its display window: nothing of it is "
+                     "seen");
+        return 0;
+    }
+    if (outside)
         return io__fail(log, path,
                         "its data window lies outside its display window; nothing of it "
                         "is seen; render it again");
-    desc->layers = layers;
     desc->guard_left = image->data_x < 0 ? -image->data_x : 0;
     desc->guard_top = image->data_y < 0 ? -image->data_y : 0;
     desc->guard_right = right > 0 ? (int32_t)right : 0;
@@ -259,7 +281,7 @@ int io_frame_load(const char *path, const io_passes_request *request, io_frame *
     if (!result)
         result = read_passes(path, &names, &frame.image, log);
     if (!result)
-        result = set_desc(path, &frame.image, names.layers, &frame.desc, log);
+        result = set_desc(path, request, &frame.image, names.layers, &frame.desc, log);
     if (!result) {
         frame.desc.layer_kind = names.layer_kind;
         result = settle(path, request, &names, &frame, log);

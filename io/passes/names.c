@@ -143,7 +143,7 @@ static int depth_rank_of(const char *name, bool with_component)
     if (with_component == !s.component[0] || component < 0)
         return NO_MATCH;
     if (contains(s.layer, s.layer_length, "denois"))
-        return FOR_DENOISER;
+        return contains(s.layer, s.layer_length, "depth") ? FOR_DENOISER : NO_MATCH;
     /* Whose Z "shadow.Z" is, nobody knows. */
     if (!with_component && s.prefix && same_text(s.layer, s.layer_length, "Z"))
         return NO_MATCH;

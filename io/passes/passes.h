@@ -39,12 +39,16 @@ typedef struct io_passes_request {
         depth_format; /* background INFINITY: 1e10 is used for planar and radial */
     float vfov_rad;   /* > 0: perspective with this vertical field of view of the display
                          window; wins over metadata */
+    float hfov_rad;   /* > 0: the same with a horizontal field of view */
     float
         view_height; /* > 0: orthographic, height of the display window in scene units */
     io_normal_space normal_space;
     bool flip_normals[3]; /* negate x, y, z of the normals as the file has them */
     /* The encoding is the user's word: another that fits better is told, not taken. */
     bool encoding_given;
+    /* Overscan gets a result like the rest, instead of being a guard band; that of
+     * G-buffers that crevice made stays one. */
+    bool keep_overscan;
     /* For frames of a shot. is_later: not its first, which told what contradicts.
      * usual_reading: io_frame.reading of a frame that decided it, or 0. */
     bool is_later;

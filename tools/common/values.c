@@ -142,9 +142,14 @@ bool args_set_value(const arg *row, const char *text, void *settings)
 static void describe_choices(const arg *row, char *out, size_t size)
 {
     size_t used = 0;
+    int32_t count = 0;
 
-    for (int32_t i = 0; row->choices[i] && used < size; i++)
-        used += (size_t)snprintf(out + used, size - used, "%s%s", i == 0 ? "" : "|",
+    while (row->choices[count])
+        count++;
+    /* Long lists need places at which a line may break. */
+    const char *between = count > 6 ? ", " : "|";
+    for (int32_t i = 0; i < count && used < size; i++)
+        used += (size_t)snprintf(out + used, size - used, "%s%s", i == 0 ? "" : between,
                                  row->choices[i]);
 }
 

@@ -3,25 +3,10 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "ao_settings.h"
 #include "commands.h"
 #include "common/estimate.h"
-#include "frame_facts.h"
-#include "frames.h"
-#include "common/output.h"
-#include "passes/passes.h"
-#include "common/radius.h"
-
-enum { PATH_SIZE = 4096 };
-
-typedef struct ao_settings {
-    common_settings common;
-    const char *input, *output, *frames;
-    const char *depth, *normal, *normal_flip;
-    arg_int depth_encoding, normal_space, layer_kind;
-    arg_number vfov_deg, ortho, z_near, z_far, background;
-    arg_int bits;
-    bool half;
-} ao_settings;
+#include "shot.h"
 
 /* In the order of crv_depth_encoding. */
 static const char *const encodings[] = {"planar",
@@ -47,7 +32,8 @@ static const arg file_rows[] = {
      .offset = offsetof(ao_settings, input),
      .help =
          "frame with a depth pass, and normals if there are any: .exr, or a grey .png "
-         "or .pfm of depth; shot.####.exr or shot.%04d.exr with --frames"},
+         "or .pfm of depth; with --frames shot.####.exr, shot.@@@@.exr, shot.%04d.exr, "
+         "shot.$F4.exr or shot.<frame>.exr"},
     {.name = "--output",
      .short_name = 'o',
      .value = "FILE",
@@ -59,8 +45,24 @@ static const arg file_rows[] = {
      .value = "A-B[xSTEP]",
      .type = ARG_TEXT,
      .offset = offsetof(ao_settings, frames),
-     .help =
-         "frames to compute; the first that fails ends the run, those before it stay"},
+     .help = "frames to compute, as 1-240, 1,3,10-20x2 or -5--1; one that fails is left "
+             "out and told at the end"},
+    {.name = "--crop",
+     .type = ARG_FLAG,
+     .offset = offsetof(ao_settings, crop),
+     .help = "only the display window gets a result; overscan still occludes"},
+    {.name = "--skip-existing",
+     .type = ARG_FLAG,
+     .offset = offsetof(ao_settings, skip_existing),
+     .help = "leave results that are whole and made with the same settings, and take "
+             "their radius; .exr and .png"},
+    {.name = "--radius-frame",
+     .value = "N",
+     .type = ARG_INT,
+     .min = -99999999,
+     .max = 99999999,
+     .offset = offsetof(ao_settings, radius_frame),
+     .help = "the frame of the shot whose view chooses the radius for all parts of it"},
     {.name = "--bits",
      .value = "N",
      .type = ARG_CHOICE,
@@ -158,6 +160,31 @@ static const arg camera_rows[] = {
      .offset = offsetof(ao_settings, vfov_deg),
      .computed = "from the file's metadata",
      .help = "full vertical field of view"},
+    {.name = "--hfov",
+     .value = "DEG",
+     .type = ARG_NUMBER,
+     .min = 0.1,
+     .max = 179.0,
+     .unit = "degrees",
+     .offset = offsetof(ao_settings, hfov_deg),
+     .help = "full horizontal field of view, instead of --vfov"},
+    {.name = "--lens",
+     .value = "MM",
+     .type = ARG_NUMBER,
+     .min = 1e-3,
+     .max = 1e6,
+     .unit = "mm",
+     .offset = offsetof(ao_settings, lens_mm),
+     .help = "focal length, instead of --vfov; with --sensor"},
+    {.name = "--sensor",
+     .value = "MM",
+     .type = ARG_NUMBER,
+     .min = 1e-3,
+     .max = 1e6,
+     .unit = "mm",
+     .initial = "36",
+     .offset = offsetof(ao_settings, sensor_mm),
+     .help = "width of the sensor that --lens belongs to"},
     {.name = "--ortho",
      .value = "HEIGHT",
      .type = ARG_NUMBER,
@@ -238,7 +265,7 @@ static bool exists(const char *path)
     return stat(path, &info) == 0;
 }
 
-static const char *frames_mistake(const ao_settings *s, frame_range *range)
+static const char *frames_mistake(const ao_settings *s, frame_list *list)
 {
     if (!s->frames) {
         if (frames_places(s->input) > 0 && !exists(s->input))
@@ -246,8 +273,9 @@ static const char *frames_mistake(const ao_settings *s, frame_range *range)
                    "--frames A-B";
         return NULL;
     }
-    if (!frames_parse(s->frames, range))
-        return "--frames: is not a range; give A-B or A-BxSTEP, such as 1-240";
+    if (!frames_parse(s->frames, list))
+        return "--frames: is not a range; give A-B or A-BxSTEP, such as 1-240, or "
+               "several with commas";
     if (frames_places(s->input) != 1)
         return "IN: needs one place for the frame's number; write shot.####.exr";
     if (frames_places(s->output) != 1)
@@ -255,7 +283,29 @@ static const char *frames_mistake(const ao_settings *s, frame_range *range)
     return NULL;
 }
 
-static int check(const ao_settings *s, frame_range *range, report *r)
+static const char *camera_mistake(const ao_settings *s)
+{
+    if (s->ortho.given && (s->vfov_deg.given || s->hfov_deg.given || s->lens_mm.given))
+        return "--ortho: contradicts --vfov, --hfov and --lens; give one of them";
+    if (s->vfov_deg.given + s->hfov_deg.given + s->lens_mm.given > 1)
+        return "--vfov: contradicts --hfov and --lens; give one of them";
+    if (s->sensor_mm.given && !s->lens_mm.given)
+        return "--sensor: is for --lens; add that";
+    return NULL;
+}
+
+static const char *shot_mistake(const ao_settings *s)
+{
+    if (s->radius_frame.given && s->common.radius_given)
+        return "--radius-frame: contradicts --radius; give one of them";
+    if (s->radius_frame.given && !s->frames)
+        return "--radius-frame: is for --frames; leave it out";
+    if (s->skip_existing && !io_keeps_made(s->output))
+        return "--skip-existing: a .pfm cannot say how it was made; write .exr or .png";
+    return NULL;
+}
+
+static int check(const ao_settings *s, frame_list *list, report *r)
 {
     const char *mistake = depth_mistake(s);
     if (!mistake && s->normal_flip
@@ -263,10 +313,12 @@ static int check(const ao_settings *s, frame_range *range, report *r)
         mistake = "--normal-flip: names axes out of x, y and z, such as y or xz";
     if (!mistake && estimate_is_of_relief(&s->common.options))
         mistake = "--characteristic field: frames have no relief; leave it out";
-    if (!mistake && s->vfov_deg.given && s->ortho.given)
-        mistake = "--ortho: contradicts --vfov; give one of them";
     if (!mistake)
-        mistake = frames_mistake(s, range);
+        mistake = camera_mistake(s);
+    if (!mistake)
+        mistake = shot_mistake(s);
+    if (!mistake)
+        mistake = frames_mistake(s, list);
     if (mistake) {
         report_error(r, "%s", mistake);
         return EXIT_USAGE;
@@ -286,11 +338,13 @@ static io_passes_request make_request(const ao_settings *s)
                      .normal_space = "say --normal-space view if that is what they are",
                      .normal_flip = "add --normal-flip x, y or z",
                      .encoding = "say so with --depth-encoding or --vfov",
-                     .camera = "give its vertical field of view with --vfov DEGREES (or "
-                               "--ortho HEIGHT for an orthographic one)"},
+                     .camera = "give its vertical field of view with --vfov DEGREES, or "
+                               "--hfov, or --lens and --sensor (or --ortho HEIGHT for "
+                               "an orthographic one)"},
     };
     request.depth_format.encoding = (crv_depth_encoding)s->depth_encoding.value;
     request.encoding_given = s->depth_encoding.given;
+    request.keep_overscan = !s->crop;
     if (uses_near(s))
         request.depth_format.z_near = (float)s->z_near.value;
     if (uses_far(s))
@@ -301,128 +355,25 @@ static io_passes_request make_request(const ao_settings *s)
         request.depth_format.background = (float)s->background.value;
     if (s->vfov_deg.given)
         request.vfov_rad = (float)(s->vfov_deg.value * 3.14159265358979323846 / 180.0);
+    if (s->hfov_deg.given)
+        request.hfov_rad = (float)(s->hfov_deg.value * 3.14159265358979323846 / 180.0);
+    if (s->lens_mm.given)
+        request.hfov_rad =
+            (float)(2.0 * atan(0.5 * s->sensor_mm.value / s->lens_mm.value));
     if (s->ortho.given)
         request.view_height = (float)s->ortho.value;
     return request;
 }
 
-/* What lasts from frame to frame. */
-typedef struct shot {
-    const ao_settings *settings;
-    io_passes_request request;
-    crv_options options;
-    bool has_radius;   /* the user's, or that of the first frame that shows anything */
-    frame_facts first; /* of the first frame */
-    estimator estimator;
-} shot;
-
-static int upload(estimator *e, const io_frame *frame, report *r)
-{
-    estimate_fit(e, &frame->desc);
-    return report_ok(r, io_frame_to_gbuffer(frame, e->context, &e->gbuffer), "G-buffer")
-               ? EXIT_DONE
-               : EXIT_FAILED;
-}
-
-static int fix_radius(shot *t, const io_frame *frame, report *r)
-{
-    float radius;
-    const int result = radius_suggest(&t->estimator, frame, &radius, r);
-    if (result != EXIT_DONE || !(radius > 0.0f))
-        return result;
-    t->options.radius = radius;
-    t->has_radius = true;
-    report_info(r, "radius: --radius %g, 5 %% of the view's height at the median depth",
-                (double)radius);
-    return EXIT_DONE;
-}
-
-static int write_result(const shot *t, const char *path, const io_frame *frame,
-                        io_image *ao, report *r)
-{
-    const io_write_options options = {.half = t->settings->half,
-                                      .bits = t->settings->bits.value == 0 ? 8 : 16};
-    /* The result lies where the frame does, without its overscan. */
-    ao->data_x = frame->image.data_x + frame->desc.guard_left;
-    ao->data_y = frame->image.data_y + frame->desc.guard_top;
-    ao->display_width = frame->image.display_width;
-    ao->display_height = frame->image.display_height;
-    ao->pixel_aspect = frame->image.pixel_aspect;
-    ao->camera = frame->image.camera;
-    /* Formats without windows get the whole picture. */
-    if (!io_keeps_windows(path) && facts_fill_display(ao, r) != EXIT_DONE)
-        return EXIT_FAILED;
-    return output_write(path, ao, &options, r);
-}
-
-static int load(const shot *t, const char *path, io_frame *frame, report *r)
-{
-    if (io_frame_load(path, &t->request, frame, &r->logger) != 0)
-        return EXIT_FAILED;
-    if (t->settings->layer_kind.given)
-        frame->desc.layer_kind = (crv_layers)t->settings->layer_kind.value;
-    return EXIT_DONE;
-}
-
-static int process(shot *t, const char *input, const char *output, report *r)
-{
-    io_frame frame = {0};
-    io_image ao = {0};
-    int result = output_check(output, input, r);
-    if (result == EXIT_DONE)
-        result = load(t, input, &frame, r);
-    if (result == EXIT_DONE)
-        facts_compare(&t->first, &frame, input, r);
-    if (result == EXIT_DONE)
-        result = upload(&t->estimator, &frame, r);
-    if (result == EXIT_DONE && !t->has_radius)
-        result = fix_radius(t, &frame, r);
-    if (result == EXIT_DONE)
-        result = estimate_plan(&t->estimator, &t->options, r);
-    if (result == EXIT_DONE)
-        result = estimate_run(&t->estimator, &ao, r);
-    if (result == EXIT_DONE)
-        result = facts_check_surface(&t->estimator, &ao, input, r);
-    if (result == EXIT_DONE)
-        result = write_result(t, output, &frame, &ao, r);
-    io_image_free(&ao);
-    io_frame_free(&frame);
-    return result;
-}
-
-static int process_range(shot *t, const frame_range *range, report *r)
-{
-    char input[PATH_SIZE], output[PATH_SIZE];
-    int result = EXIT_DONE;
-    for (int32_t f = range->first; f <= range->last && result == EXIT_DONE;
-         f += range->step) {
-        if (!frames_name(t->settings->input, f, input, sizeof input)
-            || !frames_name(t->settings->output, f, output, sizeof output)) {
-            report_error(r, "--frames: the names of frame %d are too long", f);
-            return EXIT_USAGE;
-        }
-        result = process(t, input, output, r);
-        r->brief = true;
-    }
-    return result;
-}
-
 static int run(const void *settings, report *r)
 {
     const ao_settings *s = settings;
-    shot t = {.settings = s, .has_radius = s->common.radius_given};
-    frame_range range;
-    int result = check(s, &range, r);
+    frame_list list;
+    const int result = check(s, &list, r);
     if (result != EXIT_DONE)
         return result;
-    t.request = make_request(s);
-    t.options = s->common.options;
-    result = estimate_open(&t.estimator, &s->common, r);
-    if (result == EXIT_DONE)
-        result = s->frames ? process_range(&t, &range, r)
-                           : process(&t, s->input, s->output, r);
-    estimate_close(&t.estimator);
-    return result;
+    const io_passes_request request = make_request(s);
+    return shot_run(s, &request, s->frames ? &list : NULL, r);
 }
 
 const command command_ao = {
@@ -430,9 +381,11 @@ const command command_ao = {
     .summary = "depth and normal passes to ambient occlusion, also for whole shots",
     .synopsis = "IN.exr -o OUT.exr [options]",
     .details =
-        "What lies in the frame's overscan occludes but gets no result. Without a "
-        "radius, 5 % of the view's height at the median depth is taken; a range of "
-        "frames keeps that of its first. `crevice help passes` lists the passes that are "
+        "The result has the frame's data window, overscan included. Without a radius, 5 "
+        "% "
+        "of the view's height at the median depth is taken; a range of frames keeps that "
+        "of its first, and results say how they were made. `crevice help passes` lists "
+        "the passes that are "
         "known by name.",
     .tables = tables,
     .library_options = true,

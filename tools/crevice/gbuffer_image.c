@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "gbuffer_image.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* Row-vector matrices: p' = p * M, so M is the transpose of the matrix for column
@@ -76,5 +77,7 @@ int gbuffer_make_image(const scene_gbuffer *g, io_image *image, const crv_logger
     image->display_width = g->desc.width - g->desc.guard_left - g->desc.guard_right;
     image->display_height = g->desc.height - g->desc.guard_top - g->desc.guard_bottom;
     gbuffer_describe_camera(g, image);
+    /* `ao` knows by this that the overscan is a guard band. */
+    snprintf(image->made, sizeof image->made, "crevice %s gbuffer", crv_version());
     return 0;
 }

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: MIT */
+/* ao_settings.h: what `crevice ao` was told. */
+#ifndef TOOL_AO_SETTINGS_H
+#define TOOL_AO_SETTINGS_H
+
+#include "common/args.h"
+
+typedef struct ao_settings {
+    common_settings common;
+    const char *input, *output, *frames;
+    const char *depth, *normal, *normal_flip;
+    arg_int depth_encoding, normal_space, layer_kind;
+    arg_number vfov_deg, hfov_deg, lens_mm, sensor_mm, ortho, z_near, z_far, background;
+    arg_int radius_frame;
+    arg_int bits;
+    bool half, skip_existing, crop;
+} ao_settings;
+
+#endif

@@ -1,0 +1,367 @@
+/* SPDX-License-Identifier: MIT */
+#include "shot.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "common/estimate.h"
+#include "common/output.h"
+#include "common/progress.h"
+#include "common/radius.h"
+#include "frame_facts.h"
+
+enum { PATH_SIZE = 4096, LOOKED_AT = 5 };
+
+/* What lasts from frame to frame. */
+typedef struct shot {
+    const ao_settings *settings;
+    const frame_list *list;
+    io_passes_request request;
+    crv_options options;
+    bool has_radius;   /* the user's, or that of the first frame that shows anything */
+    frame_facts first; /* of the first frame */
+    char made[IO_MADE_SIZE]; /* the settings, without the radius */
+    estimator estimator;
+} shot;
+
+typedef struct frame_paths {
+    char input[PATH_SIZE], output[PATH_SIZE];
+} frame_paths;
+
+static int name_frame(const ao_settings *s, int32_t frame, frame_paths *paths, report *r)
+{
+    if (frames_name(s->input, frame, paths->input, sizeof paths->input)
+        && frames_name(s->output, frame, paths->output, sizeof paths->output))
+        return EXIT_DONE;
+    report_error(r, "--frames: the names of frame %d are too long", (int)frame);
+    return EXIT_USAGE;
+}
+
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+static void
+append(char made[IO_MADE_SIZE], const char *format, ...)
+{
+    const size_t used = strlen(made);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(made + used, IO_MADE_SIZE - used, format, arguments);
+    va_end(arguments);
+}
+
+static void append_number(char made[IO_MADE_SIZE], const char *name, const arg_number *n)
+{
+    if (n->given)
+        append(made, " %s=%.9g", name, n->value);
+}
+
+/* Whatever changes the result, so that two results can be told apart. */
+static void describe(const shot *t, char made[IO_MADE_SIZE])
+{
+    const ao_settings *s = t->settings;
+    const crv_options *o = &t->options;
+    made[0] = '\0';
+    append(made, "crevice %s ao: method=%s filter=%s", crv_version(), o->method->name,
+           o->filter ? o->filter->name : "none");
+    for (int32_t i = 0; i < crv_option_count(); i++) {
+        const crv_option *option = crv_option_at(i);
+        if (strcmp(option->key, "radius") != 0
+            && crv_option_applies(option, o->method, o->filter))
+            append(made, " %s=%.9g", option->key, crv_options_get(o, option));
+    }
+    append(made, " depth=%s normal=%s space=%d flip=%s", s->depth ? s->depth : "",
+           s->normal ? s->normal : "", (int)s->normal_space.value,
+           s->normal_flip ? s->normal_flip : "");
+    if (s->depth_encoding.given)
+        append(made, " encoding=%d", (int)s->depth_encoding.value);
+    if (s->layer_kind.given)
+        append(made, " layers=%d", (int)s->layer_kind.value);
+    append_number(made, "near", &s->z_near);
+    append_number(made, "far", &s->z_far);
+    append_number(made, "background", &s->background);
+    append_number(made, "vfov", &s->vfov_deg);
+    append_number(made, "hfov", &s->hfov_deg);
+    append_number(made, "lens", &s->lens_mm);
+    append_number(made, "sensor", &s->sensor_mm);
+    append_number(made, "ortho", &s->ortho);
+    append(made, " exact=%d half=%d bits=%d crop=%d", s->common.exact, s->half,
+           s->bits.value == 0 ? 8 : 16, s->crop);
+}
+
+/* The radius stands last, because a shot that goes on takes it up from there. */
+static const char radius_word[] = " radius=";
+
+static bool is_made_so(const shot *t, const char *made, float *radius)
+{
+    const size_t length = strlen(t->made);
+    if (strncmp(made, t->made, length) != 0
+        || strncmp(made + length, radius_word, sizeof radius_word - 1) != 0)
+        return false;
+    double value;
+    if (!args_number(made + length + sizeof radius_word - 1, &value) || !(value > 0.0))
+        return false;
+    *radius = (float)value;
+    return true;
+}
+
+/* Whether a result is there, whole, and made with these settings; its radius is that of
+ * the shot. */
+static bool is_done(shot *t, const char *output, report *r)
+{
+    struct stat info;
+    io_image image = {0};
+    float radius = 0.0f;
+    if (stat(output, &info) != 0)
+        return false;
+    const bool whole = io_read(output, NULL, 0, &image, NULL) == 0;
+    const bool same =
+        whole && is_made_so(t, image.made, &radius)
+        && (!t->has_radius
+            || fabsf(radius - t->options.radius) <= 1e-6f * t->options.radius);
+    io_image_free(&image);
+    if (!same) {
+        report_info(r, "%s: is %s; it is made again", output,
+                    whole ? "made with other settings" : "not whole");
+        return false;
+    }
+    t->options.radius = radius;
+    t->has_radius = true;
+    report_info(r, "%s: is there, and made with these settings", output);
+    return true;
+}
+
+static int upload(estimator *e, const io_frame *frame, report *r)
+{
+    estimate_fit(e, &frame->desc);
+    return report_ok(r, io_frame_to_gbuffer(frame, e->context, &e->gbuffer), "G-buffer")
+               ? EXIT_DONE
+               : EXIT_FAILED;
+}
+
+/* A part of a shot chooses its own radius, which another part would not. */
+static void warn_of_part(const shot *t, report *r)
+{
+    frame_paths paths;
+    if (!t->list)
+        return;
+    const int32_t first = frames_at(t->list, 0);
+    const int32_t last = frames_at(t->list, frames_count(t->list) - 1);
+    const int32_t outside[] = {first - 1, last + 1};
+    for (int i = 0; i < 2; i++) {
+        struct stat info;
+        if (name_frame(t->settings, outside[i], &paths, r) == EXIT_DONE
+            && stat(paths.input, &info) == 0) {
+            report_warning(r,
+                           "--radius: these frames choose their own, and %s is not of "
+                           "them; give --radius, or --radius-frame to all parts of a "
+                           "shot",
+                           paths.input);
+            return;
+        }
+    }
+}
+
+static int fix_radius(shot *t, const io_frame *frame, report *r)
+{
+    float radius;
+    const int result = radius_suggest(&t->estimator, frame, &radius, r);
+    if (result != EXIT_DONE || !(radius > 0.0f))
+        return result;
+    t->options.radius = radius;
+    t->has_radius = true;
+    report_info(r, "radius: --radius %g, 5 %% of the view's height at the median depth",
+                (double)radius);
+    if (!t->settings->radius_frame.given)
+        warn_of_part(t, r);
+    return EXIT_DONE;
+}
+
+static int write_result(const shot *t, const char *path, const io_frame *frame,
+                        io_image *ao, report *r)
+{
+    const io_write_options options = {.half = t->settings->half,
+                                      .bits = t->settings->bits.value == 0 ? 8 : 16};
+    /* The result lies where the frame does, without its guard band. */
+    ao->data_x = frame->image.data_x + frame->desc.guard_left;
+    ao->data_y = frame->image.data_y + frame->desc.guard_top;
+    ao->display_width = frame->image.display_width;
+    ao->display_height = frame->image.display_height;
+    ao->pixel_aspect = frame->image.pixel_aspect;
+    ao->camera = frame->image.camera;
+    /* Formats without windows get the whole picture. */
+    if (!io_keeps_windows(path) && facts_fill_display(ao, r) != EXIT_DONE)
+        return EXIT_FAILED;
+    snprintf(ao->made, sizeof ao->made, "%s", t->made);
+    append(ao->made, "%s%.9g", radius_word, (double)t->options.radius);
+    return output_write(path, ao, &options, r);
+}
+
+static int load(const shot *t, const char *path, io_frame *frame, report *r)
+{
+    if (io_frame_load(path, &t->request, frame, &r->logger) != 0)
+        return EXIT_FAILED;
+    if (t->settings->layer_kind.given)
+        frame->desc.layer_kind = (crv_layers)t->settings->layer_kind.value;
+    return EXIT_DONE;
+}
+
+/* Lets other frames of the shot decide how normals are read, if the first cannot. */
+static void ask_the_shot(shot *t, report *r)
+{
+    const int32_t count = t->list ? frames_count(t->list) : 0;
+    frame_paths paths;
+    for (int32_t i = 1; i <= LOOKED_AT && i < count; i++) {
+        const int32_t number = frames_at(
+            t->list, (int32_t)((int64_t)i * (count - 1)
+                               / (count - 1 < LOOKED_AT ? count - 1 : LOOKED_AT)));
+        io_frame frame = {0};
+        if (name_frame(t->settings, number, &paths, r) != EXIT_DONE
+            || io_frame_load(paths.input, &t->request, &frame, NULL) != 0)
+            continue;
+        const int reading = frame.reading_decided ? frame.reading : 0;
+        io_frame_free(&frame);
+        if (!reading)
+            continue;
+        t->request.usual_reading = reading;
+        report_info(r, "normals: %s decides how they are read, for the whole shot",
+                    paths.input);
+        return;
+    }
+}
+
+/* Loads a frame, and again if the shot reads its normals otherwise. */
+static int load_as_shot(shot *t, const char *path, io_frame *frame, report *r)
+{
+    int result = load(t, path, frame, r);
+    if (result != EXIT_DONE)
+        return result;
+    if (frame->reading && frame->reading_decided && !t->request.usual_reading)
+        t->request.usual_reading = frame->reading;
+    if (frame->reading && !frame->reading_decided && !t->request.is_later
+        && !t->request.usual_reading) {
+        ask_the_shot(t, r);
+        if (t->request.usual_reading && t->request.usual_reading != frame->reading) {
+            io_frame_free(frame);
+            result = load(t, path, frame, r);
+        }
+    }
+    t->request.is_later = true;
+    return result;
+}
+
+static int process(shot *t, const char *input, const char *output, report *r)
+{
+    io_frame frame = {0};
+    io_image ao = {0};
+    int result = output_check(output, input, r);
+    if (result == EXIT_DONE && t->settings->skip_existing && is_done(t, output, r))
+        return EXIT_DONE;
+    if (result == EXIT_DONE)
+        result = load_as_shot(t, input, &frame, r);
+    if (result == EXIT_DONE)
+        facts_compare(&t->first, &frame, input, r);
+    if (result == EXIT_DONE)
+        result = upload(&t->estimator, &frame, r);
+    if (result == EXIT_DONE && !t->has_radius)
+        result = fix_radius(t, &frame, r);
+    if (result == EXIT_DONE)
+        result = estimate_plan(&t->estimator, &t->options, r);
+    if (result == EXIT_DONE)
+        result = estimate_run(&t->estimator, &ao, r);
+    if (result == EXIT_DONE)
+        result = facts_check_surface(&t->estimator, &ao, input, r);
+    if (result == EXIT_DONE)
+        result = write_result(t, output, &frame, &ao, r);
+    io_image_free(&ao);
+    io_frame_free(&frame);
+    return result;
+}
+
+/* The radius of the frame that the user names. */
+static int find_radius(shot *t, report *r)
+{
+    frame_paths paths;
+    io_frame frame = {0};
+    if (!t->settings->radius_frame.given)
+        return EXIT_DONE;
+    int result = name_frame(t->settings, t->settings->radius_frame.value, &paths, r);
+    if (result == EXIT_DONE)
+        result = load_as_shot(t, paths.input, &frame, r);
+    if (result == EXIT_DONE)
+        result = upload(&t->estimator, &frame, r);
+    if (result == EXIT_DONE)
+        result = fix_radius(t, &frame, r);
+    io_frame_free(&frame);
+    if (result == EXIT_DONE && !t->has_radius) {
+        report_error(r, "--radius-frame: %s shows nothing; name another frame",
+                     paths.input);
+        result = EXIT_FAILED;
+    }
+    return result;
+}
+
+/* One line with all failures. */
+static void tell_failures(const int32_t *failed, int32_t count, int32_t total, report *r)
+{
+    char text[1024] = "";
+    for (int32_t i = 0; i < count; i++) {
+        const size_t used = strlen(text);
+        if (used + 40 > sizeof text) {
+            snprintf(text + used, sizeof text - used, " ...");
+            break;
+        }
+        snprintf(text + used, sizeof text - used, "%s%d", i ? "," : "", (int)failed[i]);
+    }
+    report_error(r, "%d of %d frames failed; mend them and give --frames %s", (int)count,
+                 (int)total, text);
+}
+
+static int process_list(shot *t, report *r)
+{
+    const int32_t total = frames_count(t->list);
+    int32_t *failed = malloc((size_t)total * sizeof *failed), count = 0;
+    int result = failed ? EXIT_DONE : report_no_memory(r);
+    progress p = progress_begin(r, "frames", 0, total);
+    for (int32_t i = 0; i < total && result != EXIT_USAGE && failed; i++) {
+        frame_paths paths;
+        result = name_frame(t->settings, frames_at(t->list, i), &paths, r);
+        if (result == EXIT_DONE)
+            result = process(t, paths.input, paths.output, r);
+        if (result == EXIT_FAILED) {
+            failed[count++] = frames_at(t->list, i);
+            r->errors = 0; /* each failure has its line */
+        }
+        r->brief = true;
+        if (total > 1)
+            progress_show(&p, i + 1);
+    }
+    progress_end(&p);
+    if (count && total > 1)
+        tell_failures(failed, count, total, r);
+    free(failed);
+    return count ? EXIT_FAILED : result;
+}
+
+int shot_run(const ao_settings *settings, const io_passes_request *request,
+             const frame_list *list, report *r)
+{
+    shot t = {.settings = settings,
+              .list = list,
+              .request = *request,
+              .options = settings->common.options,
+              .has_radius = settings->common.radius_given};
+    describe(&t, t.made);
+    int result = estimate_open(&t.estimator, &settings->common, r);
+    if (result == EXIT_DONE)
+        result = find_radius(&t, r);
+    if (result == EXIT_DONE)
+        result = list ? process_list(&t, r)
+                      : process(&t, settings->input, settings->output, r);
+    estimate_close(&t.estimator);
+    return result;
+}
