@@ -4,6 +4,7 @@
  * that glTF 2.0 has: where it comes to lie is known from the specification.
  */
 #define _POSIX_C_SOURCE 200809L
+#include "reference.h"
 #include "test_scene_support.h"
 
 #include <png.h>
@@ -466,6 +467,65 @@ static void test_masks(void **state)
     }
 }
 
+/* The accessibility of a floor's middle, half a unit below the square; radius 1. */
+static double under_square(unsigned char alpha, crv_falloff falloff)
+{
+    unsigned char pixels[2 * 2 * 4], png[500];
+    png_alloc_size_t size = sizeof png;
+    png_image image = {
+        .version = PNG_IMAGE_VERSION, .width = 2, .height = 2, .format = PNG_FORMAT_RGBA};
+    char rest[2000];
+    file f = square_file();
+    memset(pixels, alpha, sizeof pixels);
+    assert_int_equal(png_image_write_to_memory(&image, png, &size, 0, pixels, 0, NULL),
+                     1);
+    const int view = add_view(&f, png, size, 0);
+    snprintf(rest, sizeof rest,
+             "\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"mesh\":0},"
+             "{\"mesh\":1,\"translation\":[0,-0.5,0],\"scale\":[9,1,9]}],"
+             "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,"
+             "\"TEXCOORD_0\":3},\"indices\":2,\"material\":0}]},"
+             "{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":2}]}],"
+             "\"images\":[{\"bufferView\":%d}],\"textures\":[{\"source\":0}],"
+             "\"materials\":[{\"alphaMode\":\"MASK\",\"pbrMetallicRoughness\":"
+             "{\"baseColorTexture\":{\"index\":0}}}]",
+             view);
+    scene *s = load(write_glb(&f, rest), 0);
+    /* From between the two, so that the floor is what is seen. */
+    const double eye[3] = {0, -0.1, 0}, target[3] = {0, -1, 0};
+    scene_view look_at = look(CRV_ORTHOGRAPHIC, eye, target, 1e-3);
+    look_at.up[1] = 0.0;
+    look_at.up[2] = -1.0;
+    const scene_gbuffer_request request = request_of(&look_at, 1, 1);
+    scene_gbuffer g = render(s, &request);
+    const reference_options o = {.weighting = CRV_WEIGHTING_COSINE,
+                                 .falloff = falloff,
+                                 .tau = 3.0f,
+                                 .u = 0.1f,
+                                 .radius = 1.0f,
+                                 .rays = 1024};
+    reference *r = NULL;
+    assert_int_equal(reference_create(s, &g, &o, &r, NULL), 0);
+    const double accessibility = (double)reference_pixel(r, 0, 0).accessibility;
+    reference_free(r);
+    scene_gbuffer_free(&g);
+    scene_free(s);
+    return accessibility;
+}
+
+/* Rays that are traced for occlusion pass holes, too. A ceiling at half the radius blocks
+ * all within 60 degrees of the normal, 3/4 of the cosine-weighted directions; the square
+ * is large enough to be that ceiling. */
+static void test_masks_do_not_occlude(void **state)
+{
+    (void)state;
+    assert_true(under_square(0, CRV_FALLOFF_NONE) >= 1.0);
+    assert_true(under_square(0, CRV_FALLOFF_LINEAR) >= 1.0);
+    assert_true(fabs(under_square(255, CRV_FALLOFF_NONE) - 0.25) < 0.01);
+    assert_true(under_square(255, CRV_FALLOFF_LINEAR) > 0.4);
+    assert_true(under_square(255, CRV_FALLOFF_LINEAR) < 1.0);
+}
+
 static void test_cameras(void **state)
 {
     const file f = square_file();
@@ -511,7 +571,8 @@ int main(void)
         cmocka_unit_test(test_instances), cmocka_unit_test(test_skin),
         cmocka_unit_test(test_morph),     cmocka_unit_test(test_sparse_and_modes),
         cmocka_unit_test(test_buffers),   cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_masks),     cmocka_unit_test(test_cameras),
+        cmocka_unit_test(test_masks),     cmocka_unit_test(test_masks_do_not_occlude),
+        cmocka_unit_test(test_cameras),
     };
     return cmocka_run_group_tests(tests, NULL, remove_files);
 }
