@@ -22,6 +22,7 @@ glslangValidator  glslang-tools
 needs_tests='
 g++         g++
 python3     python3
+spirv-cross spirv-cross
 spirv-val   spirv-tools
 clang-format  clang-format
 -           libcmocka-dev

@@ -12,11 +12,11 @@ import sys
 import tempfile
 
 # Ids of common.glsl with values that hosts use: all read from the buffer; a usual plan;
-# much else, interleaved.
+# much else, deinterleaved.
 SPECIALISED = [
-    "0:8 1:8 2:-1 3:-1 4:-1 5:-1 6:-1 7:-1 8:-1 9:-1 10:-1 11:-1 12:-1 13:1 14:-1 15:0 22:0",
-    "0:16 1:8 2:1 3:8 4:8 5:1 6:12 7:0 8:1 9:0 10:4 11:1 12:0 13:1 14:1 15:0 22:1",
-    "0:64 1:4 2:5 3:7 4:3 5:0 6:1 7:1 8:4 9:1 10:5 11:0 12:1 13:4 14:0 15:1 22:1",
+    "0:8 1:8 2:-1 3:-1 4:-1 5:-1 6:-1 7:-1 8:-1 9:-1 10:-1 11:-1 12:-1 13:1 14:-1 15:0 20:0",
+    "0:16 1:8 2:1 3:8 4:8 5:1 6:12 7:0 8:1 9:0 10:4 11:1 12:0 13:1 14:1 15:0 20:1",
+    "0:64 1:4 2:5 3:7 4:3 5:0 6:1 7:1 8:4 9:1 10:5 11:0 12:1 13:4 14:0 15:1 20:1",
 ]
 SHARED = {  # struct: the header that defines it, an include away from src
     "crv__params": "shared/params.h",

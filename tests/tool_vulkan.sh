@@ -27,7 +27,7 @@ print(f"{sys.argv[3]}: {beyond} of {len(a)} pixels beyond 2e-3")
 sys.exit(len(a) != len(b) or beyond > len(a) / 1000)
 END
 
-methods="hbao hsao raymarch alchemy vo containment vao ssao"
+methods="hbao gtao hsao raymarch alchemy vo containment vao ssao"
 
 # agrees NAME RADIUS METHOD FILTER: one picture of NAME.exr
 agrees()

@@ -7,7 +7,7 @@
 
 static inline int is_without_shader(const char *name)
 {
-    static const char *const NAMES[] = {"gtao"};
+    static const char *const NAMES[] = {"bitmask"};
     for (size_t i = 0; i < sizeof NAMES / sizeof NAMES[0]; i++) {
         if (strcmp(NAMES[i], name) == 0)
             return 1;

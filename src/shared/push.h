@@ -32,15 +32,11 @@ struct crv__push {
     float depth_a, depth_b;
     float depth_background; /* planar and radial: this and all beyond; may be INFINITY */
 
-    /* A rotation of normals: 3x3, row by row. Arrays of floats would lie otherwise in
+    /* A rotation of normals: 3x3, row by row. An array of floats would lie otherwise in
      * HLSL, into which the shaders translate. */
-#ifdef VULKAN
     float to_view_xx, to_view_xy, to_view_xz;
     float to_view_yx, to_view_yy, to_view_yz;
     float to_view_zx, to_view_zy, to_view_zz;
-#else
-    float to_view[9];
-#endif
 
     /* An estimate's directions or points, where it is computed in parts. */
     int32_t part_begin, part_end;
@@ -51,7 +47,7 @@ struct crv__push {
 typedef struct crv__push crv__push;
 
 _Static_assert(sizeof(crv__push) == 124, "at most 128 bytes; layout shared with GLSL");
-_Static_assert(offsetof(crv__push, to_view) == 76, "layout shared with GLSL");
+_Static_assert(offsetof(crv__push, to_view_xx) == 76, "layout shared with GLSL");
 #endif
 
 #endif

@@ -256,10 +256,17 @@ static void fill_normals(crv__push *push, const crv_vulkan_pass *p,
 {
     static const float IDENTITY[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     push->normal_encoding = (int32_t)p->desc.normals;
-    memcpy(push->to_view,
-           p->desc.normal_space == CRV_NORMAL_WORLD ? frame->camera.world_to_view
-                                                    : IDENTITY,
-           sizeof push->to_view);
+    const float *m =
+        p->desc.normal_space == CRV_NORMAL_WORLD ? frame->camera.world_to_view : IDENTITY;
+    push->to_view_xx = m[0];
+    push->to_view_xy = m[1];
+    push->to_view_xz = m[2];
+    push->to_view_yx = m[3];
+    push->to_view_yy = m[4];
+    push->to_view_yz = m[5];
+    push->to_view_zx = m[6];
+    push->to_view_zy = m[7];
+    push->to_view_zz = m[8];
 }
 
 /* The pass's setup for a frame, which may be smaller and lie elsewhere. */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * common.glsl: what every shader sees: numbers, images, and what may be fixed when a
- * pipeline is made. To lift an algorithm into a renderer of your own, replace this file:
- * the others only use the functions and constants below.
+ * pipeline is made. To lift an algorithm into a renderer of your own, include lifted.glsl
+ * instead.
  */
 #ifndef COMMON_GLSL
 #define COMMON_GLSL
@@ -230,6 +230,28 @@ bool in_output(ivec2 at)
 {
     const ivec2 end = ivec2(push.out_x + push.out_width, push.out_y + push.out_height);
     return all(lessThan(at, end));
+}
+
+/* The pixel whose place in the noise tile stands for `at`. Where a workgroup has one
+ * place only, one of the workgroup: then a compiler sees that all of it is alike. */
+ivec2 noise_pixel(ivec2 at)
+{
+    if (PIXEL_STRIDE <= 1 || PIXEL_STRIDE % noise_size() != 0)
+        return at;
+    return ivec2(push.out_x, push.out_y) + ivec2(gl_WorkGroupID.xy) % PIXEL_STRIDE;
+}
+
+crv__noise_texel noise_at(ivec2 at)
+{
+    const ivec2 pixel = noise_pixel(at) + ivec2(params.noise_x, params.noise_y);
+    const ivec2 place = pixel % noise_size();
+    return noise_tile[place.y * noise_size() + place.x];
+}
+
+/* (cos, sin) of the k-th of the equally spaced directions. */
+vec2 direction_of(int k)
+{
+    return direction_table[k];
 }
 
 #ifndef OUTPUT_ARRAY

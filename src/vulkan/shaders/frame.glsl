@@ -62,22 +62,6 @@ vec2 image_offset(ivec2 from, ivec2 to)
                 float(from.y - to.y) * params.inv_fy);
 }
 
-/* The pixel whose place in the noise tile stands for `at`. Where a workgroup has one
- * place only, one of the workgroup: then a compiler sees that all of it is alike. */
-ivec2 noise_pixel(ivec2 at)
-{
-    if (PIXEL_STRIDE <= 1 || PIXEL_STRIDE % noise_size() != 0)
-        return at;
-    return ivec2(push.out_x, push.out_y) + ivec2(gl_WorkGroupID.xy) % PIXEL_STRIDE;
-}
-
-crv__noise_texel noise_at(ivec2 at)
-{
-    const ivec2 pixel = noise_pixel(at) + ivec2(params.noise_x, params.noise_y);
-    const ivec2 place = pixel % noise_size();
-    return noise_tile[place.y * noise_size() + place.x];
-}
-
 /* v turned by the texel's rotation. */
 vec2 turned(crv__noise_texel noise, vec2 v)
 {
@@ -89,7 +73,7 @@ vec2 turned(crv__noise_texel noise, vec2 v)
 /* The k-th of the equally spaced directions, turned by the texel's rotation. */
 vec2 direction_at(crv__noise_texel noise, int k)
 {
-    return turned(noise, direction_table[k]);
+    return turned(noise, direction_of(k));
 }
 
 /* A jitter in [0, 1) for the k-th of several strata walked at one pixel: the texel's own,

@@ -58,8 +58,8 @@ uint packed(float a, float b)
 void take_tile(ivec2 first, ivec2 size)
 {
     const int count = size.x * size.y,
-              step = int(gl_WorkGroupSize.x * gl_WorkGroupSize.y);
-    for (int index = int(gl_LocalInvocationIndex); index < count; index += step) {
+              stride = int(gl_WorkGroupSize.x * gl_WorkGroupSize.y);
+    for (int index = int(gl_LocalInvocationIndex); index < count; index += stride) {
         const ivec2 at = first + ivec2(index % size.x, index / size.x);
         const Texel a = texel_at(at), b = texel_at(at + lane_step());
         tile_surface[index] = uvec4(packed(a.normal.x, b.normal.x),
@@ -85,9 +85,9 @@ float slope_between(float before, float d, float after)
     return abs(slope) < CRV_STEEPEST_SLOPE ? slope : 0;
 }
 
-vec2 slope_along(int index, int step, vec2 d)
+vec2 slope_along(int index, int stride, vec2 d)
 {
-    const vec2 before = tile_depth[index - step], after = tile_depth[index + step];
+    const vec2 before = tile_depth[index - stride], after = tile_depth[index + stride];
     return vec2(slope_between(before.x, d.x, after.x),
                 slope_between(before.y, d.y, after.y));
 }
@@ -111,12 +111,12 @@ struct Taps {
     f16vec2 likeness;  /* 0 to 1; 0 where there is no tap */
 };
 
-Taps taps_at(Centre c, ivec2 step, float most)
+Taps taps_at(Centre c, ivec2 way, float most)
 {
-    const int index = c.index + step.y * c.row + step.x;
+    const int index = c.index + way.y * c.row + way.x;
     const uvec4 surface = tile_surface[index];
     const vec2 expected =
-        c.depth + float(step.x) * c.slope_x + float(step.y) * c.slope_y;
+        c.depth + float(way.x) * c.slope_x + float(way.y) * c.slope_y;
     const vec2 deviation =
         min(abs(tile_depth[index] - expected) * (1 / params.filter_depth), most);
     const f16vec2 x = unpackFloat2x16(surface.x) - c.nx,

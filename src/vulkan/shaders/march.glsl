@@ -98,8 +98,8 @@ bool is_blocked(vec3 origin, vec3 Q, out vec3 I)
 /* The point that the i-th of the jittered steps over the radius comes to. */
 vec3 stepped(vec3 origin, vec3 direction, int i, float beta)
 {
-    precise float step = params.radius / float(step_count());
-    precise vec3 Q = origin + direction * ((float(i) + beta) * step);
+    precise float stride = params.radius / float(step_count());
+    precise vec3 Q = origin + direction * ((float(i) + beta) * stride);
     return Q;
 }
 

@@ -25,8 +25,8 @@ ivec2 tile_first()
 void take_tile()
 {
     const ivec2 last = ivec2(params.width - 1, params.height - 1), first = tile_first();
-    const uint step = gl_WorkGroupSize.x * gl_WorkGroupSize.y;
-    for (uint i = gl_LocalInvocationIndex; i < tile_depth.length(); i += step) {
+    const uint stride = gl_WorkGroupSize.x * gl_WorkGroupSize.y;
+    for (uint i = gl_LocalInvocationIndex; i < tile_depth.length(); i += stride) {
         const ivec2 at = first + ivec2(i % TILE_ROW, i / TILE_ROW);
         tile_depth[i] = planar_depth(clamp(at, ivec2(0), last));
     }
@@ -72,13 +72,13 @@ vec3 decoded_normal(vec4 stored)
 /* The edge from the pixel to its neighbours on one axis: towards the neighbour that is
  * nearer in depth, since the other may lie beyond an edge. Without a neighbour the
  * surface is taken to be parallel to the image. */
-vec3 edge_along(ivec2 at, ivec2 step, float d)
+vec3 edge_along(ivec2 at, ivec2 way, float d)
 {
     const vec3 P = unproject(at, d);
     float best = INFINITY;
-    precise vec3 result = unproject(at + step, d) - P;
+    precise vec3 result = unproject(at + way, d) - P;
     for (int side = -1; side <= 1; side += 2) {
-        const ivec2 neighbour = at + side * step;
+        const ivec2 neighbour = at + side * way;
         if (!in_buffers(neighbour))
             continue;
         const float depth = depth_in_tile(neighbour);

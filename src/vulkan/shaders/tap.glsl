@@ -34,8 +34,8 @@ void take_texel(int index, ivec2 at)
 void take_tile(ivec2 first, ivec2 size)
 {
     const int count = size.x * size.y,
-              step = int(gl_WorkGroupSize.x * gl_WorkGroupSize.y);
-    for (int index = int(gl_LocalInvocationIndex); index < count; index += step)
+              stride = int(gl_WorkGroupSize.x * gl_WorkGroupSize.y);
+    for (int index = int(gl_LocalInvocationIndex); index < count; index += stride)
         take_texel(index, first + ivec2(index % size.x, index / size.x));
     barrier();
 }
@@ -51,10 +51,10 @@ struct Centre {
 
 /* The smaller of the two one-sided differences: the one that does not cross an edge. 0 at
  * pixels without neighbours. */
-float slope_along(int index, int step, float d)
+float slope_along(int index, int stride, float d)
 {
-    const float before = d - tile_surface[index - step].w;
-    const float after = tile_surface[index + step].w - d;
+    const float before = d - tile_surface[index - stride].w;
+    const float after = tile_surface[index + stride].w - d;
     const float slope = abs(after) < abs(before) ? after : before;
     return abs(slope) < CRV_STEEPEST_SLOPE ? slope : 0;
 }
@@ -81,13 +81,13 @@ struct Tap {
                         overflows */
 };
 
-Tap tap_at(Centre c, ivec2 step)
+Tap tap_at(Centre c, ivec2 way)
 {
-    const int index = c.index + step.y * c.row + step.x;
+    const int index = c.index + way.y * c.row + way.x;
     const vec4 surface = tile_surface[index];
     const float value = tile_value[index];
     const float expected =
-        c.depth + float(step.x) * c.slope.x + float(step.y) * c.slope.y;
+        c.depth + float(way.x) * c.slope.x + float(way.y) * c.slope.y;
     const float deviation = abs(surface.w - expected) / params.filter_depth;
     const float turned = 1 - dot(surface.xyz, c.normal);
     const float likeness = min(1, 1 - turned * params.filter_normal);

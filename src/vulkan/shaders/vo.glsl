@@ -52,14 +52,14 @@ float accessibility(ivec2 at, float d)
     for (int i = part_begin(); i < part_end(pattern_count()); i++) {
         const vec2 disk = turned(noise, pattern[i].xy);
         precise vec2 place = disk * radius_px;
-        const ivec2 step = ivec2(int(roundEven(place.x)), -int(roundEven(place.y)));
+        const ivec2 way = ivec2(int(roundEven(place.x)), -int(roundEven(place.y)));
         /* The chord of the line through the texel's centre. */
-        const vec2 offset = vec2(step) / radius_px;
+        const vec2 offset = vec2(way) / radius_px;
         precise float rest = 1 - offset.x * offset.x - offset.y * offset.y;
         if (!(rest > 0))
             continue;
         const float half_chord = params.radius * sqrt(rest);
-        open += open_length(at + step, d, half_chord);
+        open += open_length(at + way, d, half_chord);
         total += 2 * half_chord;
     }
     keep_sums(at, vec2(open, total));

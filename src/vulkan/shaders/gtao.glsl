@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Ground-truth ambient occlusion.
+ * Jorge Jimenez, Xian-Chun Wu, Angelo Pesce, Adrian Jarabo: Practical Realtime Strategies
+ * for Accurate Indirect Occlusion, SIGGRAPH 2016 courses.
+ *
+ * In every slice through the eye the horizon is the smallest angle from V under which a
+ * surface is seen. Each sample that lowers it blocks the directions between: occ = Sum
+ * (u - u') W(r). src/methods/gtao.c is the specification.
+ */
+#ifndef GTAO_GLSL
+#define GTAO_GLSL
+
+#include "slice.glsl"
+
+const int ATTENUATION_SLAB = 0;
+
+/* A slice so far. */
+struct Horizon {
+    float cosine;
+    float open; /* u of the horizon: the share above it */
+    float occlusion;
+    float weight; /* W of the horizon's own sample */
+};
+
+void add_sample(inout Horizon h, SliceSite site, Slice s, vec2 point)
+{
+    const float x = point.x, squared = params.radius * params.radius - x * x;
+    if (!(x > 0 && x < params.radius))
+        return;
+    const float end = sqrt(squared), z = min(point.y, end);
+    const float r = sqrt(x * x + z * z), cosine = z / r;
+    if (!(z > -end && cosine > h.cosine)) /* behind the sphere, or below the horizon */
+        return;
+    const float open = slice_share(site, s, cosine, x / r);
+    const float just_inside = 0.99999994;
+    const float W = falloff_within(min(r * params.inv_radius, just_inside));
+    h.occlusion += max(0, h.open - open) * W;
+    h.cosine = cosine;
+    h.open = min(h.open, open);
+    h.weight = W;
+}
+
+float blocked_share(SliceSite site, Slice s)
+{
+    Horizon h = Horizon(s.cos_tangent, 1, 0, 0);
+    for (int i = 0; i < step_count(); i++) {
+        SliceTexel texel;
+        if (!slice_texel(site, s, i, texel))
+            break;
+        for (int layer = 0; layer < layer_count(); layer++) {
+            const float d = slice_depth(layer, texel);
+            if (is_surface(d))
+                add_sample(h, site, s, slice_point(site, s, texel, d));
+        }
+    }
+    return attenuation_kind() == ATTENUATION_SLAB ? h.occlusion
+                                                  : (1 - h.open) * h.weight;
+}
+
+#endif
