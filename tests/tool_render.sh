@@ -89,22 +89,22 @@ bad 1 'has no camera; ' render builtin:corner --camera top -o no.png
 bad 2 'contradicts --eye' render cameras.gltf --camera top --eye 1,1,1 -o no.png
 
 # Partial cameras, an orthographic one, layers, face normals, no guard band, odd names.
-good render builtin:sphere $small -o "s p ä.png" --eye 3,4,5
-good render builtin:sphere $small -o out1.png --target 0,0,0 --up 0,0,1
-good render builtin:sphere $small -o out2.png --eye 0,9,0 --target 0,0,0
-good render builtin:sphere $small -o out3.png --ortho 5 --bits 16
-good render builtin:sphere $small -o out4.exr --vfov 20 --half
-good render builtin:sphere --size 33x21 -o out5.pfm --layers 4 --layer-kind solid
-good render builtin:sphere --size 1x1 -o out6.png --guard-px 0 --normals-from face
+good render builtin:corner $small -o "s p ä.png" --eye 3,4,5
+good render builtin:corner $small -o out1.png --target 0,0,0 --up 0,0,1
+good render builtin:corner $small -o out2.png --eye 0,9,0 --target 0,0,0
+good render builtin:corner $small -o out3.png --ortho 5 --bits 16
+good render builtin:corner $small -o out4.exr --vfov 20 --half
+good render builtin:corner --size 33x21 -o out5.pfm --layers 4 --layer-kind solid
+good render builtin:corner --size 1x1 -o out6.png --guard-px 0 --normals-from face
 [ -s "s p ä.png" ] || fail "a name with spaces"
 
 # A camera that looks away is told of.
 for command in render gbuffer reference; do
-    good $command builtin:sphere --size 16x9 -o away.exr --eye 0,9,0 --target 0,99,0
-    grep -q '^crevice: warning: builtin:sphere: nothing of it is in view' stderr.txt ||
+    good $command builtin:corner --size 16x9 -o away.exr --eye 0,9,0 --target 0,99,0
+    grep -q '^crevice: warning: builtin:corner: nothing of it is in view' stderr.txt ||
         fail "$command: nothing in view, and no word of it"
 done
-good render builtin:sphere --size 16x9 -o toward.exr
+good render builtin:corner --size 16x9 -o toward.exr
 grep -q 'nothing of it' stderr.txt && fail "a warning of a sphere that is in view"
 
 # A mesh from a file, and an option without effect, which is told of but no error.
