@@ -130,15 +130,4 @@ bool io_is_same_file(const char *a, const char *b);
  * and removes them again. */
 int io_check_room(const char *path, size_t room, const crv_logger *log);
 
-/* Writes `size` bytes under any name, in the way of io_write(): whole, or not at all. */
-int io_write_bytes(const char *path, const void *bytes, size_t size,
-                   const crv_logger *log);
-
-/*
- * Makes the folder if it is missing, in a folder that is there, and finds out whether
- * files can be made in it and whether the disk holds `room` more bytes, which are written
- * and removed again. *made (NULL: not wanted) tells whether the folder is new.
- */
-int io_make_folder(const char *path, size_t room, bool *made, const crv_logger *log);
-
 #endif

@@ -85,7 +85,8 @@ ends_soon() {
     wait $process || code=$?
     spent=$((($(date +%s%N) - before) / 1000000))
     [ $code -gt 128 ] || fail "exit code $code after a signal"
-    [ $spent -lt 1000 ] || fail "$spent ms to end after a signal"
+    # A second on a machine that is idle; the work itself would take minutes.
+    [ $spent -lt 8000 ] || fail "$spent ms to end after a signal"
     found=$(find . -name 'long*' -o -name '.?*')
     [ "$found" = "$left" ] || fail "left after a signal: $found"
 }

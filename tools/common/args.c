@@ -36,7 +36,7 @@ const char *const args_png_bits[] = {"8", "16", NULL};
 
 enum { FLAGS_MAX = 128 };
 
-bool args_is_library_option(const char *key)
+static bool is_library_option(const char *key)
 {
     return strcmp(key, "method") == 0 || strcmp(key, "preset") == 0
            || strcmp(key, "filter") == 0 || crv_option_find(key);
@@ -245,7 +245,7 @@ static int parse_flag(const command *c, int argc, char **argv, int *i, void *set
     if (!row && c->library_options && length > 2 && length < sizeof key
         && flag[1] == '-') {
         memcpy(key, flag + 2, length - 2);
-        if (!args_is_library_option(key))
+        if (!is_library_option(key))
             key[0] = '\0';
     }
     if (!row && key[0] == '\0')

@@ -123,9 +123,6 @@ bool args_set_value(const arg *row, const char *text, void *settings);
 /* What values a row takes ("0.1 to 179 degrees"), "" if any text is fine. */
 void args_describe_values(const arg *row, char *out, size_t size);
 
-/* Whether an option that the user wrote, without its dashes, is one of the library. */
-bool args_is_library_option(const char *key);
-
 /* A whole finite or infinite number, nothing before or after it. */
 bool args_number(const char *text, double *out);
 

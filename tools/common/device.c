@@ -51,16 +51,6 @@ void device_list_isas(char *out, size_t size)
                                      used > 0 ? ", " : "", crv_isa_name((crv_isa)i));
 }
 
-void device_describe(const common_settings *common, text *out)
-{
-    if (common->device)
-        text_addf(out, " --device %s", common->device);
-    if (common->isa.value > 0)
-        text_addf(out, " --isa %s", isa_choices[common->isa.value]);
-    if (common->exact)
-        text_add(out, " --exact");
-}
-
 bool device_is_cpu(const common_settings *common)
 {
     return !common->device || strcmp(common->device, "cpu") == 0;

@@ -4,7 +4,6 @@
 #define TOOL_DEVICE_H
 
 #include "args.h"
-#include "text.h"
 
 /* A context with the logger, which tells how far long estimates are; the caller destroys
  * it. EXIT_USAGE after an error line if this machine lacks what was asked for. */
@@ -17,9 +16,6 @@ int device_context_in(const common_settings *common, const crv_logger *logger,
 
 /* Whether --device chooses the CPU, the only one to which --isa and --exact apply. */
 bool device_is_cpu(const common_settings *common);
-
-/* Appends the arguments that choose the device, as the user would write them. */
-void device_describe(const common_settings *common, text *out);
 
 /* Writes the names of the CPU's instruction sets that are here, ", " between them. */
 void device_list_isas(char *out, size_t size);

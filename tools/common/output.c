@@ -16,15 +16,6 @@ int output_spare(const char *path, const char *input, report *r)
     return EXIT_USAGE;
 }
 
-int output_spare_all(const char *path, const arg_texts *inputs, report *r)
-{
-    int result = EXIT_DONE;
-
-    for (int32_t i = 0; i < inputs->count && result == EXIT_DONE; i++)
-        result = output_spare(path, inputs->value[i], r);
-    return result;
-}
-
 int output_check(const char *path, const char *input, report *r)
 {
     const int result = output_spare(path, input, r);
@@ -34,38 +25,18 @@ int output_check(const char *path, const char *input, report *r)
     return io_check_writable(path, &r->logger) == 0 ? EXIT_DONE : EXIT_FAILED;
 }
 
-/* io_write() goes through a temporary file, which a signal in the middle would leave
- * behind. */
-int output_guarded(int (*write)(void *data), void *data)
-{
-    interrupt_hold(GRACE_S);
-    const int result = write(data);
-    interrupt_release();
-    return result;
-}
-
-typedef struct picture {
-    const char *path;
-    const io_image *image;
-    const io_write_options *options;
-    const crv_logger *log;
-} picture;
-
-static int write_picture(void *data)
-{
-    const picture *p = data;
-    io_write_options options = p->options ? *p->options : (io_write_options){0};
-
-    options.stop = interrupt_is_late;
-    return io_write(p->path, p->image, &options, p->log);
-}
-
 int output_write(const char *path, const io_image *image, const io_write_options *options,
                  report *r)
 {
-    picture p = {path, image, options, &r->logger};
+    io_write_options with_stop = options ? *options : (io_write_options){0};
 
-    if (output_guarded(write_picture, &p) != 0)
+    with_stop.stop = interrupt_is_late;
+    /* io_write() goes through a temporary file, which a signal in the middle would leave
+     * behind. */
+    interrupt_hold(GRACE_S);
+    const int written = io_write(path, image, &with_stop, &r->logger);
+    interrupt_release();
+    if (written != 0)
         return EXIT_FAILED;
     report_info(r, "wrote %s", path);
     return EXIT_DONE;

@@ -9,9 +9,6 @@
 /* EXIT_DONE, or an error line if writing there would replace `input` (NULL: none). */
 int output_spare(const char *path, const char *input, report *r);
 
-/* The same for each of them. */
-int output_spare_all(const char *path, const arg_texts *inputs, report *r);
-
 /* Whether the picture could be written there, and would not replace `input` (NULL:
  * there is none). Returns an exit code; meant for before the work. */
 int output_check(const char *path, const char *input, report *r);
@@ -20,10 +17,5 @@ int output_check(const char *path, const char *input, report *r);
  */
 int output_write(const char *path, const io_image *image, const io_write_options *options,
                  report *r);
-
-/* Calls write(data) while signals that would end the tool wait, so that a file which is
- * being written is finished, or given up and removed, first. Returns what write()
- * returned. */
-int output_guarded(int (*write)(void *data), void *data);
 
 #endif

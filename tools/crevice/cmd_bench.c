@@ -6,7 +6,7 @@
 #include "commands.h"
 #include "common/device.h"
 #include "common/json.h"
-#include "common/machine.h"
+#include "bench/machine.h"
 
 /* Longer than this is announced. */
 #define LONG_SECONDS 10.0

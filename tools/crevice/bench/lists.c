@@ -6,7 +6,7 @@
 
 #include "bench/bench.h"
 #include "common/device.h"
-#include "common/machine.h"
+#include "bench/machine.h"
 #include "common/nearest.h"
 
 enum { WORD_SIZE = 64, NAMES_MAX = 64 };

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* machine.h: where times were measured. */
-#ifndef TOOL_STUDY_MACHINE_H
-#define TOOL_STUDY_MACHINE_H
+#ifndef TOOL_BENCH_MACHINE_H
+#define TOOL_BENCH_MACHINE_H
 
 #include <stdint.h>
 
