@@ -15,6 +15,7 @@ from .page import Page
 from .progress import Progress
 from .sections import (Step, alchemy, closed_forms, hbao, hsao, methods, missing, stability,
                        structure, vao, views as view_section)
+from .tables import PageError
 from .tool import Tool, ToolError, find_tool
 from .views import View, ViewError, collect
 
@@ -108,6 +109,13 @@ def make_study(arguments: argparse.Namespace, tool: Tool, page: Page) -> Study:
                  is_quick)
 
 
+def docs_study(arguments: argparse.Namespace, folder: Path, lists: list[str]) -> Study:
+    """The study that docs/ is measured with: its views are those of the lists."""
+    chosen = argparse.Namespace(**vars(arguments) | {"output": folder, "views": lists})
+    chosen.size = chosen.size or (1280, 720)
+    return make_study(chosen, make_tool(chosen), Page(folder))
+
+
 def steps_of(study: Study, only: list[str] | None) -> list[Step]:
     steps = view_section.steps(study)
     for name, section in SECTIONS.items():
@@ -147,18 +155,17 @@ def write_page(arguments: argparse.Namespace, study: Study) -> None:
 
 def main(words: list[str]) -> int:
     arguments = parser().parse_args(words)
-    if arguments.docs:
-        return docs.main(arguments)
     if not arguments.output:
         parser().error("name the folder for the page with -o DIR")
     try:
         refuse_inputs(arguments)
-        tool = make_tool(arguments)
-        page = Page(arguments.output)
-        study = make_study(arguments, tool, page)
+        if arguments.docs:
+            docs.run(arguments, lambda folder, lists: docs_study(arguments, folder, lists))
+            return 0
+        study = make_study(arguments, make_tool(arguments), Page(arguments.output))
         run(study, steps_of(study, arguments.only))
         write_page(arguments, study)
-    except (ToolError, ViewError, PictureError, OSError) as fault:
+    except (ToolError, ViewError, PictureError, PageError, OSError) as fault:
         print(f"study: {fault}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:

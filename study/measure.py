@@ -102,6 +102,13 @@ class Study:
                                              stats.root_mean_square(error.tolist()))
         return self.references[key]
 
+    def trace(self, view: View, target: Target, rays: int) -> Reference:
+        """A reference of its own, with so many rays in every pixel."""
+        path = self.tool.make("reference", [*view.arguments(), "--radius", f"{view.radius:.9g}",
+                                            *target.flags(), "--rays", str(rays)])
+        channels = images.read(path).channels
+        return Reference(path, channels["AO"], float("nan"))
+
     def truth(self, view: View, target: Target) -> np.ndarray:
         return self.reference(view, target).picture
 
