@@ -644,6 +644,42 @@ static void test_halves_in_floats(void **state)
     io_frame_free(&frame);
 }
 
+/* An antialiased column between a near and a far plane belongs to one of them; without a
+ * filter nothing is mixed. */
+static void test_mixed_pixels(void **state)
+{
+    (void)state;
+    for (int variant = 0; variant < 4; variant++) {
+        const bool normals = variant & 1, filtered = variant & 2;
+        io_passes_request request = request_of(50);
+        io_frame frame;
+        request.normal_space = IO_NORMALS_VIEW;
+        for (int i = 0; i < PIXELS; i++) {
+            const int x = i % W;
+            const bool mixed = filtered && x == 80;
+            const bool left = x < 80;
+            /* Inverse depth is linear in x on both planes. */
+            const double near = 1 / (0.25 + 0.0002 * x), far = 1 / (0.1 + 0.0001 * x);
+            planes[0][i] = (float)(mixed ? 0.5 * (near + far) : left ? near : far);
+            planes[1][i] = mixed ? 0.0f : left ? 0.6f : -0.6f;
+            planes[2][i] = 0.0f;
+            planes[3][i] = 0.8f;
+        }
+        load(write_frame(normals, NULL), &request, &frame);
+        for (int y = 0; y < H; y++) {
+            const double d = (double)*crv_image_at(&frame.depth[0], 80, y, 0);
+            const double near = 1 / (0.25 + 0.0002 * 80), far = 1 / (0.1 + 0.0001 * 80);
+            /* Predicted from single precision: a part in 10^4. */
+            assert_true(fabs(d / near - 1) < 1e-4 || fabs(d / far - 1) < 1e-4);
+            if (normals)
+                assert_true(fabsf(*crv_image_at(&frame.normals, 80, y, 0)) > 0.59f);
+        }
+        assert_int_equal(!filtered, !strstr(support_lines.text, "100 pixels are mixed"));
+        assert_int_equal(!filtered, !strstr(support_lines.text, "mixed from two"));
+        io_frame_free(&frame);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -659,6 +695,7 @@ int main(void)
         cmocka_unit_test(test_negative_depth),
         cmocka_unit_test(test_unmarked_sky),
         cmocka_unit_test(test_halves_in_floats),
+        cmocka_unit_test(test_mixed_pixels),
     };
     return cmocka_run_group_tests(tests, support_setup, support_teardown);
 }

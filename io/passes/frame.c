@@ -9,6 +9,7 @@
 #include "evidence.h"
 #include "halves.h"
 #include "internal.h"
+#include "mixed.h"
 #include "names.h"
 #include "normals.h"
 
@@ -236,6 +237,16 @@ static crv_depth_format settle_format(const char *path, const io_passes_request 
     return format;
 }
 
+static void settle_mixed(const char *path, io_frame *frame, const crv_logger *log)
+{
+    const int64_t mixed = io__settle_mixed(frame);
+    if (mixed > 0)
+        io__info(log, path,
+                 "%lld pixels are mixed from two surfaces, as by antialiasing: each is "
+                 "given to one of them",
+                 (long long)mixed);
+}
+
 static int settle(const char *path, const io_passes_request *request,
                   const io__pass_names *names, io_frame *frame, const crv_logger *log)
 {
@@ -260,6 +271,7 @@ static int settle(const char *path, const io_passes_request *request,
     if (verdict.camera.has_rotation && io__is_rotation(verdict.camera.to_view))
         for (int i = 0; i < 9; i++)
             frame->camera.world_to_view[i] = (float)verdict.camera.to_view[i];
+    settle_mixed(path, frame, log);
     if (verdict.reading.id)
         io__apply_reading(&verdict.reading, frame);
     io__info(log, path, "camera: %s, %s", verdict.camera.text,
