@@ -87,6 +87,7 @@ static void new_options_are_those_of_a_new_plan(void **state)
         for (int32_t m = 0; m < crv_method_count(); m++) {
             crv_options options = fixture_options(crv_method_at(m)->name);
             options.radius = 0.7f;
+            options.directions = 8; /* room for the changes */
             options.filter = crv_filter_find("box4");
             crv_plan *plan = make_plan(&b, &options);
             expect_result(&b, plan, &options);

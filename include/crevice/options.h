@@ -51,6 +51,18 @@ typedef enum crv_spacing {
     CRV_SPACING_QUADRATIC = 1
 } crv_spacing;
 
+/* bitmask: how far behind its front a surface is solid, at least 0.1 R but for
+ * `constant`. A layer behind it ends the body; solid layers alone tell. */
+typedef enum crv_thickness {
+    /* As far as it was seen to extend on the way to it, and no more than its width: the
+     * distance between silhouettes on both sides in the picture. */
+    CRV_THICKNESS_WIDTH = 0,
+    CRV_THICKNESS_RUN = 1,      /* the first alone: no pass for the widths */
+    CRV_THICKNESS_CONSTANT = 2, /* option `thickness`, as in the paper */
+    /* Up to the next layer; option `thickness` behind the last. */
+    CRV_THICKNESS_LAYERS = 3
+} crv_thickness;
+
 /* What is taken to lie beyond the buffers' borders. */
 typedef enum crv_border {
     /* The surfaces at the border go on as planes. */
@@ -137,10 +149,11 @@ typedef struct crv_options {
     /* Raises hbao's tangent: occluders that rise less over the surface are ignored. */
     float bias_deg;
     crv_attenuation attenuation;
-    crv_weighting weighting; /* gtao: which integral it estimates */
-    crv_border border;       /* gtao */
-    int32_t normal_rays;     /* Nn, per direction */
-    int32_t growing_sphere;  /* hsao deflects only towards what is nearer than the step */
+    crv_weighting weighting;      /* gtao, bitmask: which integral they estimate */
+    crv_border border;            /* gtao, bitmask */
+    crv_thickness thickness_rule; /* bitmask */
+    int32_t normal_rays;          /* Nn, per direction */
+    int32_t growing_sphere; /* hsao deflects only towards what is nearer than the step */
     /* How far behind its front a surface counts as solid where no layer tells its back,
      * in radii, along the view axis; 0: without end. Things that are seen from in front
      * are rarely as thick as what they hide. */

@@ -18,6 +18,7 @@ typedef struct crv__frame {
     const float *directions;       /* (cos, sin) of 2 pi k / directions */
     const float *pattern;          /* the method's points, four floats each; NULL: none */
     const struct crv__field *field; /* NULL: none */
+    const crv__plane *map;          /* of the method's crv__map; NULL: none */
 } crv__frame;
 
 typedef struct crv__vec3 {
@@ -48,6 +49,15 @@ static inline crv__vec3 crv__normal_at(const crv__frame *f, int32_t x, int32_t y
     return (crv__vec3){*crv__plane_at(&f->normal[0], x, y),
                        *crv__plane_at(&f->normal[1], x, y),
                        *crv__plane_at(&f->normal[2], x, y)};
+}
+
+/* The method's map at a pixel; beyond the buffers the border's. */
+static inline float crv__map_at(const crv__frame *f, int32_t x, int32_t y)
+{
+    const int32_t right = f->params->width - 1, bottom = f->params->height - 1;
+    const int32_t u = x < 0 ? 0 : x > right ? right : x;
+    const int32_t v = y < 0 ? 0 : y > bottom ? bottom : y;
+    return *crv__plane_at(f->map, u, v);
 }
 
 /* A vector of the image or of a tangent plane. */

@@ -16,6 +16,7 @@ static const char *const CHARACTERISTICS[] = {"product", "depth", "field", NULL}
 static const char *const SPACINGS[] = {"equal", "quadratic", NULL};
 static const char *const ATTENUATIONS[] = {"slab", "horizon", NULL};
 static const char *const WEIGHTINGS[] = {"uniform", "cosine", NULL};
+static const char *const THICKNESSES[] = {"width", "run", "constant", "layers", NULL};
 static const char *const BORDERS[] = {"extrapolate", "background", NULL};
 
 /* Who reads an option. */
@@ -83,6 +84,10 @@ static const row TABLE[] = {
          "deflect only towards occluders that are nearer than the step has come"),
     FLOAT(thickness, "radius", 0.5, 0, 1e3, SOME_METHODS,
           "how far behind its front a surface is solid; 0: without end"),
+    CHOICE(thickness_rule, CRV_THICKNESS_WIDTH, THICKNESSES, SOME_METHODS,
+           "how far behind its front a surface is solid: width, as far as it extends in "
+           "sight and no more than it is wide; run, the first alone, faster; constant, "
+           "`thickness`; layers, up to the next layer"),
     INT(samples, "", 12, 1, 4096, SOME_METHODS,
         "n: points, lines or pipes; containment begins with 24, ssao with 16"),
     INT(bands, "", 1, 1, 16, SOME_METHODS,

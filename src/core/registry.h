@@ -7,6 +7,14 @@
 #include "core/ids.h"
 #include "crevice/options.h"
 
+/* A plane that a method reads beside depth and normals, computed from them before the
+ * estimate, over the whole buffers. */
+typedef struct crv__map {
+    const char *name;
+    const char *option; /* key of the option that asks for it */
+    float (*value)(const crv__frame *frame, int32_t x, int32_t y);
+} crv__map;
+
 typedef struct crv__method {
     crv_method info;
     /* The specification: raw accessibility of the pixel (x, y) of the buffers, which is
@@ -18,6 +26,9 @@ typedef struct crv__method {
      * with a pattern are turned by the noise through the full circle, the others through
      * one direction's sector. NULL: none. */
     void (*pattern_fill)(const crv_options *options, float *points);
+    /* The map that these options need, in crv__frame.map; returns NULL if none. NULL:
+     * never one. */
+    const crv__map *(*map)(const crv_options *options);
     /* What crv_options_preset() sets, as "key=value key=value", in the order of
      * crv_preset. */
     const char *presets[CRV_PRESET_COUNT];

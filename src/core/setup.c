@@ -9,13 +9,20 @@
 
 static const double PI = 3.14159265358979323846;
 
+static const crv__map *needed_map(const crv__method *method, const crv_options *options)
+{
+    return method->map ? method->map(options) : NULL;
+}
+
 crv__setup crv__setup_make(const crv_context *context, const crv_options *options,
                            const crv_gbuffer_desc *desc)
 {
+    const crv__method *method = crv__method_of(options->method);
     return (crv__setup){.context = context,
-                        .method = crv__method_of(options->method),
+                        .method = method,
                         .filter =
                             options->filter ? crv__filter_of(options->filter) : NULL,
+                        .map = needed_map(method, options),
                         .options = *options,
                         .desc = *desc};
 }
@@ -57,6 +64,7 @@ void crv__setup_params(const crv__setup *setup, crv__params *p)
     p->attenuation = (int32_t)o->attenuation;
     p->weighting = (int32_t)o->weighting;
     p->border = (int32_t)o->border;
+    p->thickness_rule = (int32_t)o->thickness_rule;
     p->noise_size = o->noise_size;
     p->noise_x = wrapped((int64_t)d->origin_x - d->guard_left, o->noise_size);
     p->noise_y = wrapped((int64_t)d->origin_y - d->guard_top, o->noise_size);
@@ -136,6 +144,11 @@ void crv__setup_fill(const crv__setup *s)
                        s->noise);
 }
 
+const crv__map *crv__setup_map(const crv__setup *s)
+{
+    return needed_map(s->method, &s->options);
+}
+
 /* ---- sizes ---- */
 
 static int32_t least(int32_t a, int32_t b)
@@ -171,6 +184,8 @@ const char *crv__setup_obstacle(const crv__setup *s, const crv_options *options)
         return "noise_size";
     if ((size_t)options->directions > s->direction_count)
         return "directions";
+    if (next.map && next.map != s->map)
+        return next.map->option;
     return point_count(s->method, options) > s->point_count ? "samples" : NULL;
 }
 

@@ -12,6 +12,7 @@ typedef struct crv__setup {
     const crv_context *context;
     const crv__method *method;
     const crv__filter *filter; /* NULL: none */
+    const crv__map *map;       /* that there is memory for; NULL: none */
     crv_options options;
     crv_gbuffer_desc desc;
     /* crv__setup_patterns() */
@@ -44,6 +45,9 @@ const char *crv__setup_obstacle(const crv__setup *setup, const crv_options *opti
  * until crv__setup_fill(). */
 bool crv__setup_revise(crv__setup *setup, const crv_options *options);
 void crv__setup_fill(const crv__setup *setup);
+
+/* The map that the setup's options need; NULL: none. */
+const crv__map *crv__setup_map(const crv__setup *setup);
 
 /* Fills what does not depend on the frame. */
 void crv__setup_params(const crv__setup *setup, crv__params *params);

@@ -116,6 +116,7 @@ typedef struct plan_state {
     crv__estimate_kernel estimate;
     crv__filter_kernel filter;
     crv__deinterleaved_state *di;
+    crv__plane map; /* where the setup has one */
 } plan_state;
 
 /* Kernels know nothing of fields. */
@@ -185,6 +186,21 @@ static void run_group_tiles(tiles *t)
                       run_group_tile, t);
 }
 
+typedef struct map_job {
+    const crv__map *map;
+    const crv__frame *frame;
+    const crv__plane *out;
+} map_job;
+
+static void map_row(void *data, uint32_t index)
+{
+    const map_job *job = data;
+    const int32_t y = (int32_t)index;
+    float *row = crv__plane_at(job->out, 0, y);
+    for (int32_t x = 0; x < job->out->width; x++)
+        row[x] = job->map->value(job->frame, x, y);
+}
+
 static void estimate(const crv__work *work, const crv__plane *out)
 {
     const crv__method *method = work->setup->method;
@@ -194,6 +210,10 @@ static void estimate(const crv__work *work, const crv__plane *out)
                .estimate_kernel = state->estimate,
                .out = out,
                .row = estimate_row};
+    if (work->frame->map) {
+        map_job job = {crv__setup_map(work->setup), work->frame, work->frame->map};
+        crv__run_rows(work->setup->context, work->frame->params->height, map_row, &job);
+    }
     if (state->di) {
         t.di = crv__deinterleaved_prepare(state->di, work->setup, work->frame);
         t.group_kernel = crv__deinterleaved_kernel_of(state->di);
@@ -270,6 +290,24 @@ static void choose_kernels(const crv__setup *setup, const crv__plane *plane,
         state->filter = kernels->filters[crv__filter_id_of(setup->filter)];
 }
 
+static void plan_destroy(const crv__setup *setup, void *data)
+{
+    plan_state *state = data;
+    crv__deinterleaved_destroy(setup, state->di);
+    crv__plane_destroy(&state->map, &setup->context->allocator);
+    crv__release(&setup->context->allocator, state, 1, sizeof *state);
+}
+
+static crv_status take_memory(const crv__setup *setup, plan_state *state)
+{
+    const crv_gbuffer_desc *d = &setup->desc;
+    if (setup->map
+        && crv__plane_create(&state->map, &setup->context->allocator, 0, 0, d->width,
+                             d->height))
+        return CRV_ERROR_OUT_OF_MEMORY;
+    return crv__deinterleaved_create(setup, &state->di);
+}
+
 static crv_status plan_create(const crv__setup *setup, const crv__plane *rectangle,
                               void **out)
 {
@@ -278,22 +316,16 @@ static crv_status plan_create(const crv__setup *setup, const crv__plane *rectang
     crv_status status = CRV_ERROR_OUT_OF_MEMORY;
     if (state) {
         choose_kernels(setup, rectangle, state);
-        status = crv__deinterleaved_create(setup, &state->di);
+        status = take_memory(setup, state);
+        if (status)
+            plan_destroy(setup, state);
     }
     if (status == CRV_OK) {
         *out = state;
         return CRV_OK;
     }
-    crv__release(allocator, state, 1, sizeof *state);
     return crv__fail(&setup->context->logger, status, "plan: no memory for %d x %d",
                      rectangle->width, rectangle->height);
-}
-
-static void plan_destroy(const crv__setup *setup, void *data)
-{
-    plan_state *state = data;
-    crv__deinterleaved_destroy(setup, state->di);
-    crv__release(&setup->context->allocator, state, 1, sizeof *state);
 }
 
 static bool plan_update(const crv__setup *setup, void *data)
@@ -307,9 +339,13 @@ static bool plan_update(const crv__setup *setup, void *data)
     return true;
 }
 
-static crv_status run(const crv__work *work, int filter_only, const crv__plane planes[2],
+static crv_status run(const crv__work *given, int filter_only, const crv__plane planes[2],
                       const crv__plane **result)
 {
+    const plan_state *own = given->state;
+    crv__frame frame = *given->frame;
+    frame.map = crv__setup_map(given->setup) ? &own->map : NULL;
+    const crv__work with_map = {given->setup, given->state, &frame}, *work = &with_map;
     const crv__filter *filter = work->setup->filter;
     const crv__filter_kernel kernel = state_of(work)->filter;
     const int32_t passes = filter && !kernel ? filter->passes : 0;

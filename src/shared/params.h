@@ -61,8 +61,9 @@ struct crv__params {
     float filter_normal; /* 1 / (1 - cos of the angle); 0: no limit */
     int32_t weighting;   /* crv_weighting */
 
-    int32_t border; /* crv_border */
-    float unused_0, unused_1, unused_2;
+    int32_t border;         /* crv_border */
+    int32_t thickness_rule; /* crv_thickness */
+    float unused_0, unused_1;
 };
 
 /* One texel of the noise tile. */
