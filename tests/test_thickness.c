@@ -86,14 +86,13 @@ static void surfaces_without_silhouettes_have_no_width(void **state)
 
 static const double WALL = 10, BAR = 0.25, ABOVE = 0.5, RADIUS = 1.5;
 
-/* A bar of square cross-section along y, at a distance before a wall. */
+/* A bar of square cross-section along y, parameters[0] before a wall. */
 static fixture_hit bar_before_a_wall(const double origin[3], const double direction[3],
                                      const double *parameters)
 {
-    (void)parameters;
     (void)direction;
     const bool on_bar = fabs(origin[0]) < BAR / 2;
-    return (fixture_hit){on_bar ? WALL - ABOVE - BAR : WALL, {0, 0, 1}};
+    return (fixture_hit){on_bar ? WALL - parameters[0] - BAR : WALL, {0, 0, 1}};
 }
 
 /* Whether the ray from the wall at x meets the bar within the radius. */
@@ -141,7 +140,7 @@ static void light_passes_behind_a_bar(void **state)
     (void)state;
     enum { PX = 240 }; /* 60 px a unit */
     const crv_camera camera = crv_camera_orthographic(PX, PX, 4);
-    fixture f = fixture_make(bar_before_a_wall, NULL, &camera, PX, PX);
+    fixture f = fixture_make(bar_before_a_wall, &ABOVE, &camera, PX, PX);
     float *bitmask = middle_row(&f, "bitmask"), *gtao = middle_row(&f, "gtao");
     static const int32_t OFFSETS_PX[] = {18, 30, 48, 66};
     for (int i = 0; i < 4; i++) {
@@ -157,6 +156,22 @@ static void light_passes_behind_a_bar(void **state)
     }
     free(bitmask);
     free(gtao);
+    fixture_free(&f);
+}
+
+/* Beyond the radius a bar does nothing, by gtao too, though that takes all behind it for
+ * solid. */
+static void a_far_bar_does_not_occlude(void **state)
+{
+    (void)state;
+    enum { PX = 240 };
+    const double above = RADIUS + 0.01;
+    const crv_camera camera = crv_camera_orthographic(PX, PX, 4);
+    fixture f = fixture_make(bar_before_a_wall, &above, &camera, PX, PX);
+    float *a = middle_row(&f, "gtao");
+    for (int32_t x = PX / 2 + 9; x < PX; x++) /* the wall beside the bar */
+        assert_true(a[x] > 0.9999f);          /* rounding */
+    free(a);
     fixture_free(&f);
 }
 
@@ -201,6 +216,7 @@ int main(void)
         cmocka_unit_test(a_diagonal_bar_is_measured_across),
         cmocka_unit_test(surfaces_without_silhouettes_have_no_width),
         cmocka_unit_test(light_passes_behind_a_bar),
+        cmocka_unit_test(a_far_bar_does_not_occlude),
         cmocka_unit_test(a_plan_without_widths_says_so),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

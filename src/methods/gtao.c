@@ -11,9 +11,7 @@
  *     occ = Sum (u - u') W(r),   u = F/Ft           attenuation slab
  *
  * The second sums over the samples that lower the horizon from u to u': each weighs the
- * directions that it is first to block. The surfaces are height fields, so that what is
- * below a sample is solid down to the tangent; samples beyond the sphere of the radius
- * count with the part of their column that lies in it: |z| < sqrt(R^2 - x^2).
+ * directions that it is first to block. Samples beyond the radius are ignored.
  *
  * The paper has cosine weighting without falloff, and blends the cosine of distant
  * samples towards the tangent's instead.
@@ -32,17 +30,11 @@ typedef struct horizon {
 static void add_sample(horizon *h, const crv__params *p, const crv__slice_site *site,
                        const crv__slice *s, crv__vec2 point)
 {
-    const float x = point.x;
-    if (!(x > 0 && x < p->radius))
-        return;
-    const float end = sqrtf(p->radius * p->radius - x * x), z = fminf(point.y, end);
-    if (!(z > -end))
-        return; /* behind the sphere */
-    const float r = sqrtf(x * x + z * z), cosine = z / r;
-    if (!(cosine > h->cosine))
+    const float x = point.x, z = point.y, r = sqrtf(x * x + z * z), cosine = z / r;
+    if (!(x > 0 && r < p->radius && cosine > h->cosine))
         return;
     const float open = crv__slice_share(p, site, s, cosine, x / r);
-    const float W = crv__falloff(p, fminf(r * p->inv_radius, CRV__FALLOFF_END));
+    const float W = crv__falloff(p, r * p->inv_radius);
     h->occlusion += fmaxf(0, h->open - open) * W;
     h->cosine = cosine;
     h->open = fminf(h->open, open);

@@ -1,9 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/*
- * methods/gtao.c in the deinterleaved structure. A sample beyond the sphere counts with
- * the part of its column that lies inside: its cosine is at most sqrt(1 - (x/R)^2), and
- * it is behind the sphere where it is below the opposite.
- */
+/* methods/gtao.c in the deinterleaved structure. */
 #include "cpu/kernels/slice_groups.h"
 
 /* What the code is specialised by. */
@@ -18,28 +14,23 @@ typedef struct horizon {
     vf cosine, open, occlusion, weight;
 } horizon;
 
-/* Where x is beyond the radius, or both are 0, a root is a NaN and nothing above. What is
- * as far as the background lies below every tangent. */
+/* Where x and z are 0, the root is a NaN and nothing above. What is as far as the
+ * background lies beyond the radius. */
 CRV__INLINE void add_sample(horizon *h, const crv__slice_view *w,
                             const crv__group_slice *s, shape c, vf x, vf z)
 {
     const crv__params *p = w->params;
     const vf zero = vf_zero();
-    const vf share = x * w->inverse_radius, rest = vf_fma(-share, share, vf_set(1));
-    const vf end = rest * vf_rsqrt_fair(rest);
     const vf squared = vf_fma(x, x, z * z), inverse = vf_rsqrt_fair(squared);
-    const vf own = z * inverse, cosine = vf_min(own, end);
+    const vf cosine = z * inverse, q = squared * inverse * w->inverse_radius;
     const vm above =
-        vm_and(vf_lt(h->cosine, cosine), vm_and(vf_lt(zero, x), vf_lt(zero, own + end)));
+        vm_and(vf_lt(h->cosine, cosine), vm_and(vf_lt(zero, x), vf_lt(q, vf_set(1))));
     if (c.hard) {
         h->cosine = vf_select(above, cosine, h->cosine);
         return;
     }
-    /* The point at the sphere's surface has the sine x/R. */
-    const vf sine = vf_select(vf_lt(end, own), share, x * inverse);
-    const vf measure = crv__lanes_measure(p, w->a, s->b, cosine, sine);
+    const vf measure = crv__lanes_measure(p, w->a, s->b, cosine, x * inverse);
     const vf open = vf_min(vf_max(measure * s->inverse, zero), h->open);
-    const vf q = vf_min(squared * inverse * w->inverse_radius, vf_set(CRV__BELOW_ONE));
     const vf W = crv__lanes_falloff(p, q);
     h->occlusion =
         vf_select(above, vf_fma(h->open - open, W, h->occlusion), h->occlusion);

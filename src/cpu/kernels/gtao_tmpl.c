@@ -10,18 +10,13 @@ typedef struct horizon {
 CRV__INLINE void add_sample(horizon *h, const crv__params *p, const crv__lanes_site *site,
                             const crv__lanes_slice *s, vf x, vf z, vm there)
 {
-    const vf radius2 = vf_set(p->radius * p->radius);
-    there = vm_and(there, vm_and(vf_lt(vf_zero(), x), vf_lt(x, vf_set(p->radius))));
-    const vf end = vf_sqrt(vf_max(radius2 - x * x, vf_zero()));
-    z = vf_min(z, end);
-    there = vm_and(there, vf_lt(-end, z));
     const vf r = vf_sqrt(x * x + z * z), cosine = z / r;
+    there = vm_and(there, vm_and(vf_lt(vf_zero(), x), vf_lt(r, vf_set(p->radius))));
     const vm above = vm_and(there, vf_lt(h->cosine, cosine));
     if (!vm_any(above))
         return;
     const vf open = crv__lanes_share(p, site, s, cosine, x / r);
-    const vf q = vf_min(r * vf_set(p->inv_radius), vf_set(CRV__BELOW_ONE));
-    const vf W = crv__lanes_falloff(p, q);
+    const vf W = crv__lanes_falloff(p, r * vf_set(p->inv_radius));
     const vf gain = vf_max(h->open - open, vf_zero());
     h->occlusion = h->occlusion + vf_where(above, gain * W);
     h->cosine = vf_select(above, cosine, h->cosine);

@@ -25,16 +25,11 @@ struct Horizon {
 
 void add_sample(inout Horizon h, SliceSite site, Slice s, vec2 point)
 {
-    const float x = point.x, squared = params.radius * params.radius - x * x;
-    if (!(x > 0 && x < params.radius))
-        return;
-    const float end = sqrt(squared), z = min(point.y, end);
-    const float r = sqrt(x * x + z * z), cosine = z / r;
-    if (!(z > -end && cosine > h.cosine)) /* behind the sphere, or below the horizon */
+    const float x = point.x, z = point.y, r = sqrt(x * x + z * z), cosine = z / r;
+    if (!(x > 0 && r < params.radius && cosine > h.cosine))
         return;
     const float open = slice_share(site, s, cosine, x / r);
-    const float just_inside = 0.99999994;
-    const float W = falloff_within(min(r * params.inv_radius, just_inside));
+    const float W = falloff_within(r * params.inv_radius);
     h.occlusion += max(0, h.open - open) * W;
     h.cosine = cosine;
     h.open = min(h.open, open);
