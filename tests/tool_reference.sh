@@ -2,7 +2,7 @@
 # The ray-traced reference from the command line: what it writes, what interrupts leave.
 . "$(dirname "$0")/tool_lib.sh"
 
-small="reference builtin:courtyard --size 160x90"
+small="reference builtin:courtyard --size 80x45"
 
 # The channels, and a known value: the plane is open, the groove's mean is not.
 good reference builtin:plane --size 64x36 -o plane.exr --rays 64 --radius 2
@@ -103,10 +103,10 @@ grep -q '^crevice: hurt.exr.checkpoint: is damaged' stderr.txt || fail "damage i
 rm hurt.exr.checkpoint
 
 # No room is known before the work, whose end is told of in a line: files cannot be larger
-# than 8 blocks of 512 bytes, less than a checkpoint, or than 400, less than the picture.
+# than 8 blocks of 512 bytes, less than a checkpoint, or than 200, less than the picture.
 # ThreadSanitizer itself needs larger files.
 if [ -z "${TSAN_OPTIONS:-}" ]; then
-    for room in 8:out.exr.checkpoint 400:out.exr; do
+    for room in 8:out.exr.checkpoint 200:out.exr; do
         code=0
         (
             trap '' XFSZ
