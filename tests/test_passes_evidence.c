@@ -644,6 +644,24 @@ static void test_halves_in_floats(void **state)
     io_frame_free(&frame);
 }
 
+/* Under depth of field each pixel is an average of its own few rays. */
+static void test_noisy_depth(void **state)
+{
+    (void)state;
+    const io_passes_request request = request_of(50);
+    uint32_t seed = 1;
+    io_frame frame;
+    make_usual(50);
+    for (int i = 0; i < PIXELS; i++) {
+        seed = seed * 1664525u + 1013904223u;
+        planes[0][i] *= 1.0f + 0.01f * ((float)(seed >> 8) / 16777216.0f - 0.5f);
+    }
+    load(write_frame(false, NULL), &request, &frame);
+    assert_int_equal(support_lines.warnings, 1);
+    assert_non_null(strstr(support_lines.text, "depth is noise"));
+    io_frame_free(&frame);
+}
+
 /* An antialiased column between a near and a far plane belongs to one of them; without a
  * filter nothing is mixed. */
 static void test_mixed_pixels(void **state)
@@ -695,6 +713,7 @@ int main(void)
         cmocka_unit_test(test_negative_depth),
         cmocka_unit_test(test_unmarked_sky),
         cmocka_unit_test(test_halves_in_floats),
+        cmocka_unit_test(test_noisy_depth),
         cmocka_unit_test(test_mixed_pixels),
     };
     return cmocka_run_group_tests(tests, support_setup, support_teardown);

@@ -325,6 +325,24 @@ static void settle_reading(const court *c, trial *t)
              reading->deviation);
 }
 
+/* A frame that is noise has no surfaces to be judged by. */
+static void tell_of_noise(const court *c, const trial *t)
+{
+    const double largest = 5e-4; /* a step of half floats; surfaces stay far below */
+    const crv_const_image given = crv_image_const(c->frame->depth[0]);
+    if (c->request->is_later
+        || crv_depth_convert(&given, &t->format, &t->camera, &c->planar, c->log)
+               != CRV_OK)
+        return;
+    const double noise = io__surface_noise(&c->planar);
+    if (noise > largest)
+        io__warn(
+            c->log, c->path,
+            "depth is noise: it jumps by %.2g %% from pixel to pixel, as under depth "
+            "of field or motion blur; render it without either",
+            100.0 * noise);
+}
+
 static int judge(const court *c, const crv_depth_format *format,
                  const io__camera_guess *cameras, int count, io__verdict *out)
 {
@@ -346,6 +364,7 @@ static int judge(const court *c, const crv_depth_format *format,
     if (is_doubtful && !c->request->is_later && look_further(c, cameras, count, &t))
         return -1;
     settle_reading(c, &t);
+    tell_of_noise(c, &t);
     out->camera = *t.guess;
     out->camera.camera = t.camera;
     out->format = t.format;

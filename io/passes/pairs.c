@@ -187,3 +187,41 @@ double io__surface_bend(const crv_image *depth, const crv_camera *camera)
     free(bends);
     return result;
 }
+
+/* The second difference of the inverse depth along a row, as a share of it; NAN if a
+ * neighbour is background. */
+static float second_difference(const crv_image *depth, int32_t x, int32_t y,
+                               int32_t apart)
+{
+    const float here = 1.0f / *crv_image_at(depth, x, y, 0);
+    const float left = 1.0f / *crv_image_at(depth, x - apart, y, 0);
+    const float right = 1.0f / *crv_image_at(depth, x + apart, y, 0);
+    return here > 0.0f && left > 0.0f && right > 0.0f
+               ? fabsf(left + right - 2.0f * here) / here
+               : NAN;
+}
+
+double io__surface_noise(const crv_image *depth)
+{
+    const int32_t step = io__sampling_step(depth);
+    const size_t capacity = ((size_t)depth->width / (size_t)step + 1)
+                            * ((size_t)depth->height / (size_t)step + 1);
+    float *near_by = malloc(2 * capacity * sizeof *near_by);
+    size_t count = 0;
+    if (!near_by)
+        return 0.0;
+    float *wider = near_by + capacity;
+    for (int32_t y = step / 2; y < depth->height; y += step)
+        for (int32_t x = step / 2 + 2; x < depth->width - 2; x += step) {
+            near_by[count] = second_difference(depth, x, y, 1);
+            wider[count] = second_difference(depth, x, y, 2);
+            count += isfinite(near_by[count]) && isfinite(wider[count]);
+        }
+    qsort(near_by, count, sizeof *near_by, compare_floats);
+    qsort(wider, count, sizeof *wider, compare_floats);
+    /* Twice as far apart, a curved surface bends four times as much, noise as much. */
+    const bool noise = count >= PLENTY && near_by[count / 2] > 0.6f * wider[count / 2];
+    const double result = noise ? (double)near_by[count / 2] : 0.0;
+    free(near_by);
+    return result;
+}

@@ -18,11 +18,15 @@ void io__find_pairs(const crv_image *depth, const crv_camera *camera,
                     const crv_image *normals, io__pair_list *pairs);
 void io__free_pairs(io__pair_list *pairs);
 
-/* How much planar depth bends where it bends least: the angle in degrees between implied
- * normals a hundredth of the picture apart, of which three in ten are below it. Next to 0
- * for depth that is what it is taken for and shows walls or floors. -1: too little is
- * seen. */
+/* How much planar depth bends at the pixels that bend least: three in ten implied normals
+ * differ by less than this angle, in degrees, from those a hundredth of the picture away.
+ * Next to 0 for depth that is what it is taken for and shows walls or floors. -1: too
+ * little is seen. */
 double io__surface_bend(const crv_image *depth, const crv_camera *camera);
+
+/* How much inverse depth jumps from pixel to pixel, as a share of it, if that is noise
+ * and not shape; else 0. */
+double io__surface_noise(const crv_image *depth);
 
 /* The distance in pixels between the ones that are looked at. */
 int32_t io__sampling_step(const crv_image *image);
