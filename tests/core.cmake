@@ -20,6 +20,6 @@ crevice_test(test_filters SOURCES test_filters.c LIBS crevice_fixture)
 crevice_test(test_rows SOURCES test_rows.c LIBS crevice_fixture)
 crevice_test(test_noise SOURCES test_noise.c LIBS crevice_internal)
 crevice_test(test_thickness SOURCES test_thickness.c fixture.c LIBS crevice_internal)
-crevice_test(test_deinterleaved SOURCES test_deinterleaved.c deinterleaved_reference.c deinterleaved_gtao.c simd_case.c simd_run.c fixture.c
+crevice_test(test_deinterleaved SOURCES test_deinterleaved.c deinterleaved_reference.c deinterleaved_gtao.c deinterleaved_bitmask.c simd_case.c simd_run.c fixture.c
     LIBS crevice_internal)
 crevice_test(test_plan SOURCES test_plan.c fixture.c LIBS crevice_internal)

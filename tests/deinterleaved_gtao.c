@@ -3,8 +3,8 @@
 #include "deinterleaved_samples.h"
 
 #define crv__slice_texel_at reference_slice_texel
-#define crv__method_gtao    reference_method
-extern const struct crv__method reference_method;
+#define crv__method_gtao    reference_method_gtao
+extern const struct crv__method reference_method_gtao;
 #include "methods/gtao.c"
 
 float reference_gtao(const crv__frame *f, int32_t x, int32_t y, float radius_px)

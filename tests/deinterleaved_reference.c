@@ -266,6 +266,11 @@ static float alchemy(const reference *s, int32_t x, int32_t y, float radius)
     return 1 - 2 * p->radius * sum / (float)count * ratio * ratio;
 }
 
+static bool knows_one_layer(const crv_method *method)
+{
+    return crv__method_of(method)->volumetric || strcmp(method->name, "bitmask") == 0;
+}
+
 /* Whether plans like this one have the deinterleaved structure: see
  * crv__deinterleaved_create(). */
 static int has_structure(const simd_case *c)
@@ -278,7 +283,7 @@ static int has_structure(const simd_case *c)
         && (slices ? o->directions : o->samples) % 2 == 0;
     const double table = 48.0 * samples / (1 + paired) * 16 * OCTAVES * fineness(c);
     return (o->noise_size == 1 || o->noise_size == 2 || o->noise_size == 4)
-           && c->desc.layers <= (crv__method_of(o->method)->volumetric ? 1 : 3)
+           && c->desc.layers <= (knows_one_layer(o->method) ? 1 : 3)
            && table <= (2 << 20); /* more only where the picture is large */
 }
 
@@ -295,6 +300,8 @@ static float value_at(reference *s, int32_t x, int32_t y, int structure, int *ha
                         : 0;
         if (!*has_bucket)
             a = crv__method_of(s->c->options.method)->accessibility(&s->frame, x, y);
+        else if (strcmp(name, "bitmask") == 0)
+            a = reference_bitmask(&s->frame, x, y, radius);
         else if (strcmp(name, "gtao") == 0)
             a = reference_gtao(&s->frame, x, y, radius);
         else if (strcmp(name, "vo") == 0)
@@ -328,6 +335,30 @@ static crv_gbuffer *make_gbuffer(const simd_case *c, crv_context *context)
     return NULL;
 }
 
+static void fill_map(reference *s, const crv__setup *setup, crv__plane *plane)
+{
+    const crv__map *map = crv__setup_map(setup);
+    const int32_t width = s->params.width, height = s->params.height;
+    if (!map || crv__plane_create(plane, &setup->context->allocator, 0, 0, width, height))
+        return;
+    for (int32_t y = 0; y < height; y++) {
+        for (int32_t x = 0; x < width; x++)
+            *crv__plane_at(plane, x, y) = map->value(&s->frame, x, y);
+    }
+    s->frame.map = plane;
+}
+
+/* What is as far as the background is none. */
+static void cut_depth(reference *s)
+{
+    for (int32_t y = 0; y < s->params.height; y++) {
+        for (int32_t x = 0; x < s->params.width; x++) {
+            float *d = crv__plane_at(&s->frame.depth[0], x, y);
+            *d = *d < s->background ? *d : INFINITY;
+        }
+    }
+}
+
 static void fill_result(reference *s, float *out, int32_t *structured)
 {
     const crv_gbuffer_desc *d = &s->c->desc;
@@ -337,6 +368,8 @@ static void fill_result(reference *s, float *out, int32_t *structured)
                     : p->orthographic ? 1e18f
                                       : 1024 * p->radius * p->fy;
     *structured = 0;
+    if (strcmp(s->c->options.method->name, "bitmask") == 0)
+        cut_depth(s);
     for (int32_t y = d->guard_top; y < d->height - d->guard_bottom; y++) {
         for (int32_t x = d->guard_left; x < d->width - d->guard_right; x++) {
             int has_bucket;
@@ -358,6 +391,7 @@ float *deinterleaved_reference(const simd_case *c, int32_t *structured)
         crv_context_create(NULL, &context) == CRV_OK ? make_gbuffer(c, context) : NULL;
     *structured = 0;
     crv__setup setup = {0};
+    crv__plane map = {0};
     if (out && g) {
         setup = crv__setup_make(context, &c->options, d);
         crv__setup_params(&setup, &s.params);
@@ -371,8 +405,10 @@ float *deinterleaved_reference(const simd_case *c, int32_t *structured)
                                .noise = setup.noise,
                                .directions = setup.directions,
                                .pattern = setup.pattern};
+        fill_map(&s, &setup, &map);
         fill_result(&s, out, structured);
         crv__setup_release(&setup);
+        crv__plane_destroy(&map, &context->allocator);
     }
     crv_gbuffer_destroy(g);
     crv_context_destroy(context);

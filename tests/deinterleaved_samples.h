@@ -55,5 +55,6 @@ static inline float reference_slices_open(const crv__frame *f, int32_t x, int32_
 
 /* The accessibility of a pixel with this projected radius (vertically). */
 float reference_gtao(const crv__frame *f, int32_t x, int32_t y, float radius_px);
+float reference_bitmask(const crv__frame *f, int32_t x, int32_t y, float radius_px);
 
 #endif

@@ -110,6 +110,24 @@ static float most(float a, float b)
     return a > b ? a : b;
 }
 
+static void check_bits(simd_random *r)
+{
+    ints bits, from;
+    for (int i = 0; i < N; i++)
+        bits.lane[i] = (int32_t)simd_bits(r);
+    const vi counts = vi_count_bits(vi_load(bits.lane));
+    const vi above = vi_from_bit(any_ints(r, 0, 33, &from));
+    for (int i = 0; i < N; i++) {
+        int32_t count = 0;
+        for (int k = 0; k < 32; k++)
+            count += (int32_t)((uint32_t)bits.lane[i] >> k & 1);
+        expect_int("vi_count_bits", i, count, taken_ints(counts).lane[i]);
+        const uint32_t expected =
+            from.lane[i] < 32 ? UINT32_MAX << (uint32_t)from.lane[i] : 0;
+        expect_int("vi_from_bit", i, (int32_t)expected, taken_ints(above).lane[i]);
+    }
+}
+
 static void check_comparisons(simd_random *r)
 {
     floats a, b;
@@ -307,6 +325,7 @@ int CRV__NAME(words)(uint64_t seed)
     }
     check_fours();
     for (int round = 0; round < ROUNDS; round++) {
+        check_bits(&r);
         check_comparisons(&r);
         check_max_within(&r);
         check_rounding(&r);

@@ -116,6 +116,7 @@ typedef struct plan_state {
     crv__estimate_kernel estimate;
     crv__filter_kernel filter;
     crv__deinterleaved_state *di;
+    crv__map_kernel map_kernel;
     crv__plane map; /* where the setup has one */
 } plan_state;
 
@@ -188,9 +189,22 @@ static void run_group_tiles(tiles *t)
 
 typedef struct map_job {
     const crv__map *map;
+    crv__map_kernel kernel; /* NULL: the specification */
     const crv__frame *frame;
     const crv__plane *out;
 } map_job;
+
+static void run_map_tile(void *data, uint32_t index)
+{
+    const map_job *job = data;
+    const int32_t columns = (job->out->width - 1) / CRV__MAP_TILE_WIDTH + 1;
+    const int32_t x0 = (int32_t)index % columns * CRV__MAP_TILE_WIDTH,
+                  y0 = (int32_t)index / columns * CRV__MAP_TILE_HEIGHT;
+    const int32_t x1 = x0 + CRV__MAP_TILE_WIDTH, y1 = y0 + CRV__MAP_TILE_HEIGHT;
+    const int32_t right = job->out->width, bottom = job->out->height;
+    const crv__tile tile = {x0, x1 < right ? x1 : right, y0, y1 < bottom ? y1 : bottom};
+    job->kernel(job->frame, job->out, tile);
+}
 
 static void map_row(void *data, uint32_t index)
 {
@@ -199,6 +213,23 @@ static void map_row(void *data, uint32_t index)
     float *row = crv__plane_at(job->out, 0, y);
     for (int32_t x = 0; x < job->out->width; x++)
         row[x] = job->map->value(job->frame, x, y);
+}
+
+static void make_map(const crv__work *work)
+{
+    const crv_context *context = work->setup->context;
+    const crv__plane *out = work->frame->map;
+    map_job job = {.map = crv__setup_map(work->setup),
+                   .kernel = state_of(work)->map_kernel,
+                   .frame = work->frame,
+                   .out = out};
+    const int32_t columns = (out->width - 1) / CRV__MAP_TILE_WIDTH + 1,
+                  rows = (out->height - 1) / CRV__MAP_TILE_HEIGHT + 1;
+    if (job.kernel)
+        crv__run_parallel(context, (uint32_t)columns * (uint32_t)rows, run_map_tile,
+                          &job);
+    else
+        crv__run_rows(context, out->height, map_row, &job);
 }
 
 static void estimate(const crv__work *work, const crv__plane *out)
@@ -211,8 +242,7 @@ static void estimate(const crv__work *work, const crv__plane *out)
                .out = out,
                .row = estimate_row};
     if (work->frame->map) {
-        map_job job = {crv__setup_map(work->setup), work->frame, work->frame->map};
-        crv__run_rows(work->setup->context, work->frame->params->height, map_row, &job);
+        make_map(work);
     }
     if (state->di) {
         t.di = crv__deinterleaved_prepare(state->di, work->setup, work->frame);
@@ -282,10 +312,12 @@ static void choose_kernels(const crv__setup *setup, const crv__plane *plane,
     const crv__kernels *kernels = setup->context->kernels;
     state->estimate = NULL;
     state->filter = NULL;
+    state->map_kernel = NULL;
     if (!kernels || plane->pitch > INT32_MAX / setup->desc.height)
         return;
     const crv__method_id method = crv__method_id_of(setup->method);
     state->estimate = kernels->estimates[method];
+    state->map_kernel = kernels->maps[method];
     if (setup->filter)
         state->filter = kernels->filters[crv__filter_id_of(setup->filter)];
 }

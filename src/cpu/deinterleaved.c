@@ -63,14 +63,15 @@ static bool measure(crv__deinterleaved_state *s, const crv__setup *setup)
     di->pitch = (groups | 1) * CRV__GROUP_PIXELS + 2 * CRV__ROW_PADDING;
     di->plane = di->pitch * di->rows;
     di->layer_pitch = di->pitch + (ptrdiff_t)PHASES * di->plane;
+    const int32_t has_map = crv__setup_map(setup) ? 1 : 0;
     const size_t lists = (size_t)di->buckets * PHASES;
-    s->needed = (sizes){.depths = (size_t)di->layer_pitch * (size_t)d->layers,
+    s->needed = (sizes){.depths = (size_t)di->layer_pitch * (size_t)(d->layers + has_map),
                         .samples = lists * (size_t)(di->slices * di->steps),
                         .counts = lists * (size_t)di->slices,
                         .lists = lists};
 
     const double pixels = (double)d->width * d->height;
-    const double planes = 4.0 * d->layers + 12 + 4 + (setup->filter ? 4 : 0);
+    const double planes = 4.0 * (d->layers + has_map) + 12 + 4 + (setup->filter ? 4 : 0);
     const double table =
         (double)s->needed.samples * (sizeof(crv__sample) + sizeof(crv__sample_place));
     const double left =
@@ -85,7 +86,8 @@ static bool suits(const crv__setup *setup, const crv__deinterleaved_method *meth
     const crv_options *o = &setup->options;
     const int32_t size = o->noise_size;
     return method && !setup->context->exact && (size == 1 || size == 2 || size == 4)
-           && !(setup->method->volumetric && setup->desc.layers > 1);
+           && !((setup->method->volumetric || method->one_layer)
+                && setup->desc.layers > 1);
 }
 
 /* The scales of the phases spread the borders between buckets over a bucket's width, so

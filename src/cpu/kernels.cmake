@@ -2,10 +2,10 @@
 # The kernels, compiled once per instruction set that the compiler and the target have.
 set(crevice_kernel_sources
     cpu/kernels/table_tmpl.c
-    cpu/kernels/alchemy_tmpl.c cpu/kernels/containment_tmpl.c cpu/kernels/gtao_tmpl.c cpu/kernels/hbao_tmpl.c
+    cpu/kernels/alchemy_tmpl.c cpu/kernels/containment_tmpl.c cpu/kernels/bitmask_tmpl.c cpu/kernels/gtao_tmpl.c cpu/kernels/hbao_tmpl.c
     cpu/kernels/hsao_tmpl.c cpu/kernels/raymarch_tmpl.c cpu/kernels/ssao_tmpl.c
-    cpu/kernels/vao_tmpl.c cpu/kernels/vo_tmpl.c
-    cpu/kernels/deinterleave_tmpl.c cpu/kernels/alchemy_deinterleaved_tmpl.c cpu/kernels/gtao_deinterleaved_tmpl.c cpu/kernels/hbao_deinterleaved_tmpl.c
+    cpu/kernels/width_tmpl.c cpu/kernels/vao_tmpl.c cpu/kernels/vo_tmpl.c
+    cpu/kernels/deinterleave_tmpl.c cpu/kernels/alchemy_deinterleaved_tmpl.c cpu/kernels/bitmask_deinterleaved_tmpl.c cpu/kernels/gtao_deinterleaved_tmpl.c cpu/kernels/hbao_deinterleaved_tmpl.c
     cpu/kernels/vo_deinterleaved_tmpl.c
     cpu/kernels/depth_tmpl.c cpu/kernels/normals_tmpl.c
     cpu/kernels/bilateral13_tmpl.c cpu/kernels/box4_tmpl.c cpu/kernels/gauss5_tmpl.c)

@@ -10,14 +10,15 @@ void CRV__NAME(deinterleave)(const crv__frame *f, const crv__deinterleaved *di, 
     const int32_t end =
         (di->columns + CRV__GROUP_PIXELS - 1) / CRV__GROUP_PIXELS * CRV__GROUP_PIXELS;
     float room[CRV__GROUP_SPAN];
-    for (int32_t layer = 0; layer < f->params->layers; layer++) {
+    const int32_t layers = f->params->layers, planes = layers + (f->map ? 1 : 0);
+    for (int32_t layer = 0; layer < planes; layer++) {
+        const crv__plane *plane = layer < layers ? &f->depth[layer] : f->map;
         float *first = di->depth + layer * di->layer_pitch, *rows[CRV__PHASES];
         for (int32_t k = 0; k < CRV__PHASES; k++)
             rows[k] = first + crv__deinterleaved_index(di, y, k, 0);
         for (int32_t m = 0; m < end; m += CRV__GROUP_PIXELS) {
-            const float *span =
-                crv__span_read(&f->depth[layer], m * CRV__PHASES - di->left, y,
-                               di->background, room, CRV__GROUP_SPAN);
+            const float *span = crv__span_read(plane, m * CRV__PHASES - di->left, y,
+                                               di->background, room, CRV__GROUP_SPAN);
             for (int32_t i = 0; i < CRV__GROUP_PIXELS; i += CRV__LANES) {
                 vf parts[4];
                 vf_split4(span + 4 * i, parts);

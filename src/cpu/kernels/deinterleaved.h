@@ -75,7 +75,8 @@ typedef struct crv__list_footprint {
  * background: their radius is a thousandth of a pixel, or of the rounding of their depth.
  */
 typedef struct crv__deinterleaved {
-    /* depth by phases: layer, a row of background, plane, row */
+    /* depth by phases: layer, a row of background, plane, row; behind the layers the
+     * method's map likewise */
     float *depth;
     ptrdiff_t layer_pitch; /* floats */
     int32_t plane, pitch;  /* floats of a plane; of a row in it */

@@ -28,15 +28,20 @@ enum { CRV__FILTER_TILE_WIDTH = 128, CRV__FILTER_TILE_HEIGHT = 84 };
 typedef void (*crv__filter_kernel)(const crv__frame *frame, const crv__plane *input,
                                    const crv__plane *out, crv__tile tile);
 
+/* A method's map over a rectangle no larger than a tile; as crv__map.value. */
+enum { CRV__MAP_TILE_WIDTH = 128, CRV__MAP_TILE_HEIGHT = 64 };
+typedef void (*crv__map_kernel)(const crv__frame *frame, const crv__plane *out,
+                                crv__tile tile);
+
 /* A method's kernel in the di structure, and its samples. 0 or 1 each: slices of steps
  * in directions, not the points of a pattern; an even number of directions or points
  * comes in opposite pairs; steps are rounded to even, not half up; those to the pixel
  * itself are kept; those of 32 pixels or more are rounded to multiples of the tile's 4;
- * every slice has a jitter of its own, and steps of a pixel at least.
+ * every slice has a jitter of its own, and steps of a pixel at least; it knows one layer.
  * Projected radii are quantised to 2^fineness buckets an octave. */
 typedef struct crv__deinterleaved_method {
     crv__deinterleaved_kernel run;
-    bool in_slices, in_pairs, is_rounded, keeps_centre, far_on_grid, jittered;
+    bool in_slices, in_pairs, is_rounded, keeps_centre, far_on_grid, jittered, one_layer;
     int32_t fineness;
 } crv__deinterleaved_method;
 
@@ -44,6 +49,7 @@ typedef struct crv__deinterleaved_method {
 typedef struct crv__kernels {
     crv__estimate_kernel estimates[CRV__METHOD_COUNT];
     const crv__deinterleaved_method *deinterleaved[CRV__METHOD_COUNT];
+    crv__map_kernel maps[CRV__METHOD_COUNT];
     crv__filter_kernel filters[CRV__FILTER_COUNT];
     crv__deinterleave_kernel deinterleave;
     crv__conversions conversions;

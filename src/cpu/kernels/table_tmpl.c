@@ -5,6 +5,8 @@
 
 #define CRV__ESTIMATE(name)                                                              \
     void CRV__NAME(name)(const crv__frame *, int32_t, int32_t, int32_t, float *);
+#define CRV__MAP(method, name)                                                           \
+    void CRV__NAME(name)(const crv__frame *, const crv__plane *, crv__tile);
 #define CRV__FILTER(name)                                                                \
     void CRV__NAME(name)(const crv__frame *, const crv__plane *, const crv__plane *,     \
                          crv__tile);
@@ -12,6 +14,7 @@
     extern const crv__deinterleaved_method CRV__NAME(name##_deinterleaved);
 #include "cpu/kernels/list.h"
 #undef CRV__ESTIMATE
+#undef CRV__MAP
 #undef CRV__FILTER
 #undef CRV__DEINTERLEAVED
 
@@ -25,8 +28,9 @@ void CRV__NAME(normals_row)(const crv__params *, const crv__plane *, const crv__
 
 extern const crv__kernels CRV__NAME(kernels);
 const crv__kernels CRV__NAME(kernels) = {
-#define CRV__ESTIMATE(name) .estimates[CRV__METHOD_##name] = CRV__NAME(name),
-#define CRV__FILTER(name)   .filters[CRV__FILTER_##name] = CRV__NAME(name),
+#define CRV__ESTIMATE(name)    .estimates[CRV__METHOD_##name] = CRV__NAME(name),
+#define CRV__MAP(method, name) .maps[CRV__METHOD_##method] = CRV__NAME(name),
+#define CRV__FILTER(name)      .filters[CRV__FILTER_##name] = CRV__NAME(name),
 #define CRV__DEINTERLEAVED(name)                                                         \
     .deinterleaved[CRV__METHOD_##name] = &CRV__NAME(name##_deinterleaved),
 #include "cpu/kernels/list.h"

@@ -124,6 +124,11 @@ CRV__INLINE vm vi_below(vi a, vi n)
     return (vm)_mm256_cmpeq_epi32(_mm256_min_epu32((__m256i)a, last), (__m256i)a);
 }
 
+CRV__INLINE vi vi_from_bit(vi n)
+{
+    return (vi)_mm256_sllv_epi32(_mm256_set1_epi32(-1), (__m256i)n);
+}
+
 CRV__INLINE vf vf_of(vi a)
 {
     return _mm256_cvtepi32_ps((__m256i)a);

@@ -206,6 +206,11 @@ CRV__INLINE void vf_join4(float *to, const vf in[4])
     vf_store(to + 48, _mm512_permutex2var_ps(even1, high, odd1));
 }
 
+CRV__INLINE vi vi_from_bit(vi n)
+{
+    return (vi)_mm512_sllv_epi32(_mm512_set1_epi32(-1), (__m512i)n);
+}
+
 CRV__INLINE int32_t vm_count(vm mask)
 {
     return __builtin_popcount(mask);

@@ -127,6 +127,11 @@ CRV__INLINE vm vi_below(vi a, vi n)
     return (vm)vcltq_u32((uint32x4_t)a, (uint32x4_t)n);
 }
 
+CRV__INLINE vi vi_from_bit(vi n)
+{
+    return (vi)vshlq_u32(vdupq_n_u32(UINT32_MAX), (int32x4_t)n);
+}
+
 CRV__INLINE vf vf_of(vi a)
 {
     return vcvtq_f32_s32((int32x4_t)a);

@@ -124,6 +124,16 @@ CRV__INLINE vm vi_below(vi a, vi n)
     return (vm)_mm_cmpeq_epi32(_mm_min_epu32((__m128i)a, last), (__m128i)a);
 }
 
+/* -2^n, where 2^n is a float's exponent; as an integer 2^31 is what does not fit. */
+CRV__INLINE vi vi_from_bit(vi n)
+{
+    const __m128i power =
+        _mm_slli_epi32(_mm_add_epi32((__m128i)n, _mm_set1_epi32(127)), 23);
+    const __m128i bits = _mm_cvttps_epi32(_mm_castsi128_ps(power));
+    const __m128i fits = _mm_cmplt_epi32((__m128i)n, _mm_set1_epi32(32));
+    return (vi)_mm_and_si128(_mm_sub_epi32(_mm_setzero_si128(), bits), fits);
+}
+
 CRV__INLINE vf vf_of(vi a)
 {
     return _mm_cvtepi32_ps((__m128i)a);

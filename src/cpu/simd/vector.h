@@ -29,6 +29,7 @@
  *                            at q = limit either. If b is the NaN that an operation made
  *                            out of numbers: a
  *   vf_min_abs               the smaller of |a| and b >= 0; b if a is a NaN
+ *   vi_from_bit              all bits from the n-th on; none from n = 32 on; n >= 0
  *   vi_below                 0 <= a < n, n > 0
  *   vf_gather                base[index]; 0 and no access where the mask is clear, though
  *                            base[0] may be read
@@ -75,6 +76,17 @@ CRV__INLINE vi vi_sub(vi a, vi b)
 CRV__INLINE vi vi_mul(vi a, vi b)
 {
     return (vi)((crv__vu)a * (crv__vu)b);
+}
+
+/* How many bits are set: sums of neighbours, of pairs, of fours, of bytes. */
+CRV__INLINE vi vi_count_bits(vi a)
+{
+    crv__vu n = (crv__vu)a;
+    n = n - (n >> 1 & 0x55555555u);
+    n = (n & 0x33333333u) + (n >> 2 & 0x33333333u);
+    n = (n + (n >> 4)) & 0x0f0f0f0fu;
+    n = n + (n >> 8);
+    return (vi)((n + (n >> 16)) & 0x3fu);
 }
 
 /* Set in the first n lanes. */
