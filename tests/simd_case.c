@@ -101,7 +101,8 @@ static void random_options(simd_random *r, crv_options *options)
     for (int32_t i = 0; i < crv_option_count(); i++) {
         const crv_option *option = crv_option_at(i);
         char text[64];
-        if (strcmp(option->key, "radius") == 0
+        /* noise_index: below, so that cases are those from before it. */
+        if (strcmp(option->key, "radius") == 0 || strcmp(option->key, "noise_index") == 0
             || !crv_option_applies(option, options->method, options->filter))
             continue;
         const double value = random_value(r, option);
@@ -111,6 +112,8 @@ static void random_options(simd_random *r, crv_options *options)
             snprintf(text, sizeof text, "%.9g", value);
         crv_options_set(options, option->key, text, NULL);
     }
+    simd_random aside = *r;
+    options->noise_index = simd_int(&aside, 0, 1 << 20);
     /* Without limits the shared code would hide the kernels' values. */
     if (simd_chance(r, 2))
         options->intensity = options->contrast = 1;
