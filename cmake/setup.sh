@@ -52,6 +52,15 @@ needs_study='
 chromium  chromium
 '
 
+# What builds and checks the Debian packages.
+needs_packages='
+dpkg-buildpackage  dpkg-dev
+dh                 debhelper
+dh_python3         dh-python
+fakeroot           fakeroot
+lintian            lintian
+'
+
 # To compile for 64-bit Arm on another machine and to run that.
 needs_arm='
 aarch64-linux-gnu-gcc  gcc-aarch64-linux-gnu
