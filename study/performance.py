@@ -46,8 +46,7 @@ class Measured:
         answer = self.s.tool.ask("bench", [
             str(self.s.frame_path(view)), "--set", f"radius={view.radius:.9g}", *isa,
             "--seconds", "0.1" if self.s.is_quick else "1", *arguments, "--json"])
-        self.about = {k: answer[k] for k in ("processor", "compiler", "version", "threads",
-                                             "cycles_from")}
+        self.about = {k: answer[k] for k in ("processor", "compiler", "version", "threads")}
         return [row | {"view": view.name} for row in answer["rows"]]
 
     def methods(self) -> list[Row]:

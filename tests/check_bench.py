@@ -19,17 +19,14 @@ def close(a, b):
     return math.isclose(a, b, rel_tol=CLOSE)
 
 
-def check_times(row, report):
+def check_times(row):
     assert row["runs"] >= 1 and row["runs"] == int(row["runs"]), row
     assert 0 < row["ms_min"] <= row["ms_q1"] <= row["ms"] <= row["ms_q3"] <= row["ms_max"], row
     assert row["cpu_ms"] >= 0, row
     pixels = row["width"] * row["height"]
     assert close(row["mpix_per_s"] * row["ms"], pixels / 1000), row
-    if report["cycles_from"] == "clock":
-        assert close(row["cycles_per_pixel"] * pixels,
-                     row["cpu_ms"] * 1e6 * report["clock_ghz"]), row
-    if report["cycles_from"] == "none":
-        assert row["cycles_per_pixel"] is None, row
+    # Nothing where the processor's counter cannot be read, as in most virtual machines.
+    assert row["cycles_per_pixel"] is None or row["cycles_per_pixel"] > 0, row
 
 
 def check_steps(row):
@@ -44,7 +41,7 @@ def check_steps(row):
 
 
 def check_row(row, report):
-    check_times(row, report)
+    check_times(row)
     check_steps(row)
     assert row["run_allocations"] == 0, row
     # A plane of depth and the result at the least.
@@ -70,7 +67,6 @@ def main(arguments):
         report = json.load(stream, parse_constant=lambda name: 1 / 0)
     assert report["processor"] and report["compiler"] and report["version"], report
     assert report["threads"] >= 1, report
-    assert report["cycles_from"] in ("counter", "clock", "none"), report
     rows = report["rows"]
     assert len(rows) == int(arguments[1]), len(rows)
     for row in rows:

@@ -9,13 +9,11 @@
 static const arg output_line_rows[] = {
     {.name = "--quiet",
      .short_name = 'q',
-     .type = ARG_FLAG,
-     .offset = offsetof(common_settings, quiet),
+     ARG_INTO(ARG_FLAG, common_settings, quiet),
      .help = "write nothing but errors and warnings to stderr"},
     {.name = "--verbose",
      .short_name = 'v',
-     .type = ARG_FLAG,
-     .offset = offsetof(common_settings, verbose),
+     ARG_INTO(ARG_FLAG, common_settings, verbose),
      .help = "write more about what is done"},
 };
 const arg_table args_output_lines = ARG_TABLE("Messages", output_line_rows);
@@ -23,10 +21,8 @@ const arg_table args_output_lines = ARG_TABLE("Messages", output_line_rows);
 static const arg thread_rows[] = {
     {.name = "--threads",
      .value = "N",
-     .type = ARG_INT,
-     .min = 0,
-     .max = 1024,
-     .offset = offsetof(common_settings, threads),
+     ARG_RANGE(0, 1024),
+     ARG_INTO(ARG_INT, common_settings, threads),
      .initial = "0",
      .help = "threads that work; 0: all processors. The result is the same bit by bit"},
 };

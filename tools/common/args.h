@@ -64,6 +64,18 @@ typedef struct arg {
     const char *help;
 } arg;
 
+/* In a row: what its value is and where it goes; the range of a number. */
+#define ARG_INTO(type_, settings_, member_)                                              \
+    .type = type_, .offset = offsetof(settings_, member_)
+#define ARG_RANGE(min_, max_) .min = min_, .max = max_
+
+/* The row of the file that a command writes. */
+#define ARG_OUTPUT_ROW(settings_, member_, help_)                                        \
+    {                                                                                    \
+        .name = "--output", .short_name = 'o', .value = "FILE", .required = true,        \
+        ARG_INTO(ARG_TEXT, settings_, member_), .help = help_                            \
+    }
+
 typedef struct arg_table {
     const char *title;
     const arg *rows;

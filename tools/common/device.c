@@ -17,23 +17,20 @@ static const char *const isa_choices[] = {"auto",   "scalar", "sse4", "avx2",
 static const arg device_rows[] = {
     {.name = "--device",
      .value = "DEVICE",
-     .type = ARG_TEXT,
      .computed = "cpu",
-     .offset = offsetof(common_settings, device),
+     ARG_INTO(ARG_TEXT, common_settings, device),
      .help = "what computes: cpu, or vulkan or vulkan:N, the GPU that `crevice devices` "
              "gives that number (vulkan: 0)"},
     {.name = "--isa",
      .value = "NAME",
-     .type = ARG_CHOICE,
      .choices = isa_choices,
      .initial = "auto",
-     .offset = offsetof(common_settings, isa),
+     ARG_INTO(ARG_CHOICE, common_settings, isa),
      .help =
          "instruction set of the CPU's kernels; auto: the fastest that is here. Others "
          "are for comparing"},
     {.name = "--exact",
-     .type = ARG_FLAG,
-     .offset = offsetof(common_settings, exact),
+     ARG_INTO(ARG_FLAG, common_settings, exact),
      .help = "on the CPU, sample exactly where the reference code does: up to 4 times "
              "slower and no better; for comparing with other devices"},
 };

@@ -53,54 +53,45 @@ crv_logger report_errors_only(report *r)
     return (crv_logger){.fn = on_log_errors_only, .user = r};
 }
 
-void report_error(report *r, const char *format, ...)
+static void write_formatted(const char *prefix, const char *format, va_list arguments)
 {
     char line[LINE_SIZE];
-    va_list arguments;
 
-    va_start(arguments, format);
     vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
+    write_line(prefix, line);
+}
+
+/* The body of each of the functions below. */
+#define WRITE_FORMATTED(prefix_)                                                         \
+    do {                                                                                 \
+        va_list arguments;                                                               \
+        va_start(arguments, format);                                                     \
+        write_formatted(prefix_, format, arguments);                                     \
+        va_end(arguments);                                                               \
+    } while (0)
+
+void report_error(report *r, const char *format, ...)
+{
     r->errors++;
-    write_line("crevice: ", line);
+    WRITE_FORMATTED("crevice: ");
 }
 
 void report_warning(report *r, const char *format, ...)
 {
-    char line[LINE_SIZE];
-    va_list arguments;
-
     (void)r;
-    va_start(arguments, format);
-    vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
-    write_line("crevice: warning: ", line);
+    WRITE_FORMATTED("crevice: warning: ");
 }
 
 void report_info(report *r, const char *format, ...)
 {
-    char line[LINE_SIZE];
-    va_list arguments;
-
-    if (r->quiet)
-        return;
-    va_start(arguments, format);
-    vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
-    write_line("", line);
+    if (!r->quiet)
+        WRITE_FORMATTED("");
 }
 
 void report_detail(report *r, const char *format, ...)
 {
-    char line[LINE_SIZE];
-    va_list arguments;
-
-    if (!r->verbose)
-        return;
-    va_start(arguments, format);
-    vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
-    write_line("", line);
+    if (r->verbose)
+        WRITE_FORMATTED("");
 }
 
 bool report_ok(report *r, crv_status status, const char *doing)

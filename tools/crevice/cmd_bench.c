@@ -13,24 +13,20 @@
 
 static const arg input_rows[] = {
     {.name = "INPUT",
-     .type = ARG_TEXTS,
-     .offset = offsetof(bench_settings, inputs),
+     ARG_INTO(ARG_TEXTS, bench_settings, inputs),
      .computed = "builtin:courtyard",
      .help = "mesh files or builtin:NAME, each framed by itself, and .exr frames with a "
              "depth pass, which keep their size; `crevice gbuffer` makes such frames of "
              "any camera"},
     {.name = "--vfov",
      .value = "DEG",
-     .type = ARG_NUMBER,
-     .min = 0.1,
-     .max = 179.0,
+     ARG_RANGE(0.1, 179.0),
      .unit = "degrees",
-     .offset = offsetof(bench_settings, vfov_deg),
+     ARG_INTO(ARG_NUMBER, bench_settings, vfov_deg),
      .computed = "from the file's metadata",
      .help = "full vertical field of view of .exr frames"},
     {.name = "--json",
-     .type = ARG_FLAG,
-     .offset = offsetof(bench_settings, json),
+     ARG_INTO(ARG_FLAG, bench_settings, json),
      .help = "write JSON to standard output instead of the table"},
 };
 static const arg_table input_table = ARG_TABLE("Files", input_rows);
@@ -38,77 +34,65 @@ static const arg_table input_table = ARG_TABLE("Files", input_rows);
 static const arg choice_rows[] = {
     {.name = "--method",
      .value = "METHOD,...",
-     .type = ARG_TEXTS,
-     .offset = offsetof(bench_settings, methods),
+     ARG_INTO(ARG_TEXTS, bench_settings, methods),
      .computed = "all",
      .help = "methods, or all; none: the filters alone"},
     {.name = "--preset",
      .value = "PRESET,...",
-     .type = ARG_TEXTS,
-     .offset = offsetof(bench_settings, presets),
+     ARG_INTO(ARG_TEXTS, bench_settings, presets),
      .computed = "medium",
      .help = "presets of the methods, or all"},
     {.name = "--filter",
      .value = "FILTER,...",
-     .type = ARG_TEXTS,
-     .offset = offsetof(bench_settings, filters),
+     ARG_INTO(ARG_TEXTS, bench_settings, filters),
      .computed = "none",
      .help = "filters, none, preset (the preset's own), or all filters"},
     {.name = "--set",
      .value = "KEY=VALUE",
-     .type = ARG_TEXTS,
-     .offset = offsetof(bench_settings, sets),
+     ARG_INTO(ARG_TEXTS, bench_settings, sets),
      .help = "an option (`crevice methods`) of the methods that read it; may be given "
              "again. radius=R replaces the radius that suits the scene"},
     {.name = "--radius-factor",
      .value = "X,...",
-     .type = ARG_TEXTS,
-     .offset = offsetof(bench_settings, radius_factors),
+     ARG_INTO(ARG_TEXTS, bench_settings, radius_factors),
      .computed = "1",
      .help = "factors of the radius: how time grows with it"},
     {.name = "--size",
      .value = "WxH,...",
-     .type = ARG_TEXTS,
-     .offset = offsetof(bench_settings, sizes),
+     ARG_INTO(ARG_TEXTS, bench_settings, sizes),
      .computed = "1280x720",
      .help = "sizes of the pictures, WIDTHxHEIGHT; .exr frames keep theirs"},
     {.name = "--isa",
      .value = "ISA,...",
-     .type = ARG_TEXTS,
-     .offset = offsetof(bench_settings, isas),
+     ARG_INTO(ARG_TEXTS, bench_settings, isas),
      .computed = "the best and scalar",
      .help = "instruction sets of the CPU, or all that this machine has"},
     {.name = "--structure",
      .value = "KIND,...",
-     .type = ARG_TEXTS,
-     .offset = offsetof(bench_settings, structures),
+     ARG_INTO(ARG_TEXTS, bench_settings, structures),
      .computed = "deinterleaved",
      .help = "deinterleaved (what runs by default), exact (what --exact chooses in other "
              "commands), or all"},
     {.name = "--threads",
      .value = "N,...",
-     .type = ARG_TEXTS,
-     .offset = offsetof(bench_settings, threads),
+     ARG_INTO(ARG_TEXTS, bench_settings, threads),
      .computed = "all processors",
      .help = "numbers of threads"},
     {.name = "--device",
      .value = "DEVICE",
-     .type = ARG_TEXT,
      .computed = "cpu",
-     .offset = offsetof(common_settings, device),
+     ARG_INTO(ARG_TEXT, common_settings, device),
      .help = "cpu, or vulkan or vulkan:N, the GPU that `crevice devices` gives that "
              "number; every step of a run is then timed by the device's own clock, too"},
     {.name = "--depth-layout",
      .value = "KIND,...",
-     .type = ARG_TEXTS,
-     .offset = offsetof(bench_settings, depth_layouts),
+     ARG_INTO(ARG_TEXTS, bench_settings, depth_layouts),
      .computed = "linear",
      .help = "on a GPU, how depth lies in its memory: linear, deinterleaved, levels "
              "(coarser for far samples), or all"},
     {.name = "--arithmetic",
      .value = "KIND,...",
-     .type = ARG_TEXTS,
-     .offset = offsetof(bench_settings, arithmetic),
+     ARG_INTO(ARG_TEXTS, bench_settings, arithmetic),
      .computed = "single",
      .help = "on a GPU, what filters compute in: single, half, or all"},
 };
@@ -118,20 +102,16 @@ static const arg_table choice_table =
 static const arg run_rows[] = {
     {.name = "--repeats",
      .value = "N",
-     .type = ARG_INT,
-     .min = 1,
-     .max = BENCH_RUNS_MAX,
+     ARG_RANGE(1, BENCH_RUNS_MAX),
      .initial = "9",
-     .offset = offsetof(bench_settings, repeats),
+     ARG_INTO(ARG_INT, bench_settings, repeats),
      .help = "timed runs after one to warm up; more if they are short"},
     {.name = "--seconds",
      .value = "S",
-     .type = ARG_NUMBER,
-     .min = 0.0,
-     .max = 3600.0,
+     ARG_RANGE(0.0, 3600.0),
      .unit = "s",
      .initial = "1",
-     .offset = offsetof(bench_settings, seconds),
+     ARG_INTO(ARG_NUMBER, bench_settings, seconds),
      .help = "time for the runs of one measurement, after three of them; a first run of "
              "half of it is the only one"},
 };
@@ -406,8 +386,8 @@ static int run_inputs(bench *b, const arg_texts *inputs, const machine *m)
         result = announce(b, inputs);
     b->started = report_seconds();
     if (result == EXIT_DONE && !b->rows) {
-        printf("crevice %s, %s, %s, %d threads, cycles from: %s\n\n", crv_version(),
-               m->compiler, m->processor, m->threads, bench_clock_source(&b->clock));
+        printf("crevice %s, %s, %s, %d threads\n\n", crv_version(), m->compiler,
+               m->processor, m->threads);
         bench_print_head(b->device);
     }
     for (int32_t i = 0; i < inputs->count && result == EXIT_DONE; i++)
@@ -423,8 +403,6 @@ static cJSON *describe(bench *b, const machine *m)
     json_add_text(root, "compiler", m->compiler);
     json_add_text(root, "processor", m->processor);
     json_add_number(root, "threads", m->threads);
-    json_add_number(root, "clock_ghz", b->clock.ghz);
-    json_add_text(root, "cycles_from", bench_clock_source(&b->clock));
     b->rows = cJSON_AddArrayToObject(root, "rows");
     return root;
 }
@@ -468,8 +446,10 @@ const command command_bench = {
         "say little: run it alone. JSON has `rows`, one for each line: scene, width, "
         "height, method, preset, filter, device, isa, structure, threads, radius_factor, "
         "options (what the method reads), runs, ms (median; also ms_min, ms_q1, ms_q3, "
-        "ms_max), cpu_ms (of all threads), mpix_per_s, cycles_per_pixel, bytes_per_pixel "
-        "(of G-buffer and plan), run_allocations and, on a GPU, steps (name, ms).",
+        "ms_max), cpu_ms (of all threads), mpix_per_s, cycles_per_pixel (null if they "
+        "cannot "
+        "be counted), bytes_per_pixel (of G-buffer and plan), run_allocations and, on a "
+        "GPU, steps (name, ms).",
     .tables = tables,
     .examples = examples,
     .settings_size = sizeof(bench_settings),

@@ -6,7 +6,7 @@
 
 #include "commands.h"
 #include "common/flip.h"
-#include "common/heatmap_file.h"
+#include "common/heatmap.h"
 #include "io.h"
 #include "common/metrics.h"
 #include "common/metrics_print.h"
@@ -23,54 +23,44 @@ typedef struct compare_settings {
 
 static const arg compare_rows[] = {
     {.name = "A",
-     .type = ARG_TEXT,
      .required = true,
-     .offset = offsetof(compare_settings, a),
+     ARG_INTO(ARG_TEXT, compare_settings, a),
      .help = "picture: EXR, PNG or PFM"},
     {.name = "B",
-     .type = ARG_TEXT,
      .required = true,
-     .offset = offsetof(compare_settings, b),
+     ARG_INTO(ARG_TEXT, compare_settings, b),
      .help = "picture of the same size"},
     {.name = "--channel",
      .value = "NAME",
-     .type = ARG_TEXT,
-     .offset = offsetof(compare_settings, channel),
+     ARG_INTO(ARG_TEXT, compare_settings, channel),
      .computed = "AO, or the only channel",
      .help = "the channel to compare"},
     {.name = "--channel-b",
      .value = "NAME",
-     .type = ARG_TEXT,
-     .offset = offsetof(compare_settings, channel_b),
+     ARG_INTO(ARG_TEXT, compare_settings, channel_b),
      .computed = "as for A",
      .help = "the channel of B, if its name differs"},
     {.name = "--ppd",
      .value = "X",
-     .type = ARG_NUMBER,
-     .min = FLIP_PPD_MIN,
-     .max = FLIP_PPD_MAX,
+     ARG_RANGE(FLIP_PPD_MIN, FLIP_PPD_MAX),
      .unit = "pixels per degree",
-     .offset = offsetof(compare_settings, ppd),
+     ARG_INTO(ARG_NUMBER, compare_settings, ppd),
      .initial = FLIP_PPD_TEXT,
      .help = "from where FLIP looks at the pictures; the default is 0.7 m before a "
              "screen 0.7 m wide of 3840 pixels"},
     {.name = "--heat-map",
      .value = "FILE",
-     .type = ARG_TEXT,
-     .offset = offsetof(compare_settings, heat_map),
+     ARG_INTO(ARG_TEXT, compare_settings, heat_map),
      .help = "write a picture (.png or .exr) of the signed error: orange where A is "
              "above B, blue where below, white where equal, grey background"},
     {.name = "--heat-scale",
      .value = "X",
-     .type = ARG_NUMBER,
-     .min = 1e-4,
-     .max = 1e3,
-     .offset = offsetof(compare_settings, heat_scale),
+     ARG_RANGE(1e-4, 1e3),
+     ARG_INTO(ARG_NUMBER, compare_settings, heat_scale),
      .initial = "0.25",
      .help = "the error that gets the darkest colours of the heat map"},
     {.name = "--json",
-     .type = ARG_FLAG,
-     .offset = offsetof(compare_settings, json),
+     ARG_INTO(ARG_FLAG, compare_settings, json),
      .help = "write JSON; numbers that are not finite become null"},
 };
 static const arg_table compare_table = ARG_TABLE("Pictures", compare_rows);

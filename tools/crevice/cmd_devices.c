@@ -11,10 +11,7 @@ typedef struct devices_settings {
 } devices_settings;
 
 static const arg devices_rows[] = {
-    {.name = "--json",
-     .type = ARG_FLAG,
-     .offset = offsetof(devices_settings, json),
-     .help = "write JSON"},
+    {.name = "--json", ARG_INTO(ARG_FLAG, devices_settings, json), .help = "write JSON"},
 };
 static const arg_table devices_table = ARG_TABLE("What to write", devices_rows);
 

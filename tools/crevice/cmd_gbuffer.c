@@ -10,13 +10,7 @@
 static const arg gbuffer_rows[] = {
     VIEW_MODEL_ROW,
     VIEW_IMPORT_ROW,
-    {.name = "--output",
-     .short_name = 'o',
-     .value = "FILE",
-     .type = ARG_TEXT,
-     .required = true,
-     .offset = offsetof(view_settings, output),
-     .help = "EXR file to write"},
+    ARG_OUTPUT_ROW(view_settings, output, "EXR file to write"),
 };
 static const arg_table gbuffer_table = ARG_TABLE("Files", gbuffer_rows);
 

@@ -15,13 +15,9 @@ typedef struct methods_settings {
 
 static const arg methods_rows[] = {
     {.name = "NAME",
-     .type = ARG_TEXT,
-     .offset = offsetof(methods_settings, name),
+     ARG_INTO(ARG_TEXT, methods_settings, name),
      .help = "a method or filter to tell all about; without it, all are listed"},
-    {.name = "--json",
-     .type = ARG_FLAG,
-     .offset = offsetof(methods_settings, json),
-     .help = "write JSON"},
+    {.name = "--json", ARG_INTO(ARG_FLAG, methods_settings, json), .help = "write JSON"},
 };
 static const arg_table methods_table = ARG_TABLE("What to list", methods_rows);
 

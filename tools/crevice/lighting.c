@@ -11,24 +11,21 @@ static const double degree = 3.14159265358979323846 / 180.0;
 static const arg lighting_rows[] = {
     {.name = "--sky",
      .value = "SKY",
-     .type = ARG_TEXT,
      .computed = "painted",
-     .offset = offsetof(render_settings, sky),
+     ARG_INTO(ARG_TEXT, render_settings, sky),
      .help = "the light that accessibility darkens: painted, constant[:R,G,B], gradient, "
              "or FILE.exr, an equirectangular picture (linear R, G, B; zenith on top, -Z "
              "in the centre, +X to the right of it)"},
     {.name = "--key-light",
      .value = "AZ,EL[,S]",
-     .type = ARG_TEXT,
      .computed = "over the viewer's left shoulder",
-     .offset = offsetof(render_settings, key_light),
+     ARG_INTO(ARG_TEXT, render_settings, key_light),
      .help = "the light that accessibility does not darken: azimuth (0 is -Z, 90 is +X) "
              "and elevation in degrees, strength (1 is the default's); or none"},
     {.name = "--zenith",
      .value = "X,Y,Z",
-     .type = ARG_VECTOR,
      .computed = "--up, else 0,1,0",
-     .offset = offsetof(render_settings, zenith),
+     ARG_INTO(ARG_VECTOR, render_settings, zenith),
      .help =
          "the direction from which the sky's top shines; it turns the key light, too"},
 };

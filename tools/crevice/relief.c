@@ -12,24 +12,20 @@ static const char *const wraps[] = {"repeat", "clamp", NULL};
 static const arg relief_rows[] = {
     {.name = "--height-map",
      .value = "FILE",
-     .type = ARG_TEXT,
-     .offset = offsetof(render_settings, height_map),
+     ARG_INTO(ARG_TEXT, render_settings, height_map),
      .help = "relief over the mesh's texture coordinates, white being high: .png (0 to "
              "1), or .exr or .pfm (one channel, Y or R). Makes vao the default method"},
     {.name = "--height-scale",
      .value = "H",
-     .type = ARG_NUMBER,
-     .min = -1e9,
-     .max = 1e9,
+     ARG_RANGE(-1e9, 1e9),
      .unit = "scene units",
-     .offset = offsetof(render_settings, height_scale),
+     ARG_INTO(ARG_NUMBER, render_settings, height_scale),
      .help = "how far a height of 1 stands out; negative: lies in"},
     {.name = "--height-wrap",
      .value = "KIND",
-     .type = ARG_CHOICE,
      .choices = wraps,
      .initial = "repeat",
-     .offset = offsetof(render_settings, height_wrap),
+     ARG_INTO(ARG_CHOICE, render_settings, height_wrap),
      .help = "what lies beyond the map's edge"},
 };
 const arg_table relief_table = ARG_TABLE("Relief", relief_rows);

@@ -52,10 +52,9 @@ typedef struct bench_choices {
 
 int bench_choose(const bench_settings *s, bench_choices *out, report *r);
 
-/* What an index of these lists is called. */
-const char *bench_structure_name(int32_t index);
-const char *bench_layout_name(int32_t index);
-const char *bench_arithmetic_name(int32_t index);
+/* What the indices of these lists are called. */
+extern const char *const bench_structures[2], *const bench_layouts[3];
+extern const char *const bench_arithmetic[2];
 
 /* A G-buffer in memory: a mesh framed by itself, or a renderer's frame. */
 typedef struct bench_scene {

@@ -57,43 +57,9 @@ static double cpu_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* An addition that waits for the one before takes one cycle on every processor of note.
- */
-#if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__))
-#ifdef __x86_64__
-#define ADD "add %1, %0\n\t"
-#else
-#define ADD "add %0, %0, %1\n\t"
-#endif
-static double measure_ghz(void)
-{
-    enum { ROUNDS = 200000, CHAIN = 16, TRIES = 8 };
-    double best = INFINITY;
-    uint64_t sum = 0, step = 3;
-
-    for (int i = 0; i < TRIES; i++) {
-        double start = cpu_seconds(), time;
-        for (int k = 0; k < ROUNDS; k++)
-            __asm__ volatile(
-                ADD ADD ADD ADD ADD ADD ADD ADD ADD ADD ADD ADD ADD ADD ADD ADD
-                : "+r"(sum)
-                : "r"(step));
-        time = cpu_seconds() - start;
-        best = time < best ? time : best;
-    }
-    return best > 0.0 ? 1e-9 * ROUNDS * CHAIN / best : 0.0;
-}
-#else
-static double measure_ghz(void)
-{
-    return 0.0;
-}
-#endif
-
 void bench_clock_open(bench_clock *c, int32_t repeats, double seconds)
 {
     *c = (bench_clock){.counter = open_counter(),
-                       .ghz = measure_ghz(),
                        .repeats = repeats < BENCH_RUNS_MAX ? repeats : BENCH_RUNS_MAX,
                        .seconds = seconds};
     if (isnan(read_counter(c)))
@@ -105,11 +71,6 @@ void bench_clock_close(bench_clock *c)
     if (c->counter >= 0)
         close(c->counter);
     c->counter = -1;
-}
-
-const char *bench_clock_source(const bench_clock *c)
-{
-    return c->counter >= 0 ? "counter" : c->ghz > 0.0 ? "clock" : "none";
 }
 
 double bench_median(double *values, int32_t count)
@@ -143,10 +104,7 @@ static void summarise(const bench_clock *c, const sample *samples, int32_t count
     out->cpu_ms = bench_median(values, count);
     for (int32_t i = 0; i < count; i++)
         values[i] = samples[i].cycles;
-    if (c->counter >= 0)
-        out->cycles = bench_median(values, count);
-    else
-        out->cycles = c->ghz > 0.0 ? 1e6 * out->cpu_ms * c->ghz : NAN;
+    out->cycles = c->counter >= 0 ? bench_median(values, count) : NAN;
     for (int32_t i = 0; i < count; i++)
         values[i] = 1e3 * samples[i].seconds;
     out->ms = bench_median(values, count);

@@ -10,7 +10,6 @@ enum { BENCH_RUNS_MAX = 512 };
 
 typedef struct bench_clock {
     int counter; /* file descriptor of the cycle counter, -1 if there is none */
-    double ghz;  /* of a chain of dependent additions; 0 if it cannot be told */
     int32_t repeats;
     double seconds; /* after this time no further run begins */
 } bench_clock;
@@ -20,15 +19,12 @@ typedef struct bench_time {
     int32_t runs;
     double ms, ms_min, ms_q1, ms_q3, ms_max; /* ms: the median */
     double cpu_ms;                           /* of all threads of the process, median */
-    double cycles; /* likewise, user code; NAN if neither counter nor clock tells */
+    double cycles; /* likewise, user code; NAN if there is no counter */
 } bench_time;
 
 /* Opens the counter, which counts threads that start later: call it before any does. */
 void bench_clock_open(bench_clock *c, int32_t repeats, double seconds);
 void bench_clock_close(bench_clock *c);
-
-/* What cycles come from: "counter", "clock" (processor time times ghz) or "none". */
-const char *bench_clock_source(const bench_clock *c);
 
 /*
  * Calls run(data), which returns false after an error, once to warm up and then

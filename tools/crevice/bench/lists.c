@@ -11,24 +11,9 @@
 
 enum { WORD_SIZE = 64, NAMES_MAX = 64 };
 
-static const char *const structure_names[] = {"deinterleaved", "exact"};
-static const char *const layout_names[] = {"linear", "deinterleaved", "levels"};
-static const char *const arithmetic_names[] = {"single", "half"};
-
-const char *bench_structure_name(int32_t index)
-{
-    return structure_names[index];
-}
-
-const char *bench_layout_name(int32_t index)
-{
-    return layout_names[index];
-}
-
-const char *bench_arithmetic_name(int32_t index)
-{
-    return arithmetic_names[index];
-}
+const char *const bench_structures[2] = {"deinterleaved", "exact"};
+const char *const bench_layouts[3] = {"plain", "deinterleaved", "levels"};
+const char *const bench_arithmetic[2] = {"single", "half"};
 
 /* The next word of a list with commas, and the place after it; NULL at its end. */
 static const char *next_word(const char *flag, const char *at, char word[WORD_SIZE],
@@ -134,12 +119,13 @@ static int choose_of(const char *flag, const char *const *names, int32_t count,
     return choose_names(&l, texts, initial);
 }
 
+/* Names of the registry behind those that are none of its. */
 static int choose_methods(const bench_settings *s, bench_choices *c, report *r)
 {
     named_list l = {.flag = "--method",
                     .names = {"none"},
-                    .count = BENCH_METHOD_FIRST,
-                    .all_from = BENCH_METHOD_FIRST,
+                    .count = 1,
+                    .all_from = 1,
                     .to = &c->methods,
                     .r = r};
 
@@ -152,8 +138,8 @@ static int choose_filters(const bench_settings *s, bench_choices *c, report *r)
 {
     named_list l = {.flag = "--filter",
                     .names = {"none", "preset"},
-                    .count = BENCH_FILTER_FIRST,
-                    .all_from = BENCH_FILTER_FIRST,
+                    .count = 2,
+                    .all_from = 2,
                     .to = &c->filters,
                     .r = r};
 
@@ -301,13 +287,13 @@ int bench_choose(const bench_settings *s, bench_choices *out, report *r)
     if (result == EXIT_DONE)
         result = choose_isas(s, out, r);
     if (result == EXIT_DONE)
-        result = choose_of("--structure", structure_names, 2, &s->structures,
+        result = choose_of("--structure", bench_structures, 2, &s->structures,
                            "deinterleaved", &out->structures, r);
     if (result == EXIT_DONE)
-        result = choose_of("--depth-layout", layout_names, 3, &s->depth_layouts, "linear",
-                           &out->layouts, r);
+        result = choose_of("--depth-layout", bench_layouts, 3, &s->depth_layouts,
+                           "linear", &out->layouts, r);
     if (result == EXIT_DONE)
-        result = choose_of("--arithmetic", arithmetic_names, 2, &s->arithmetic, "single",
+        result = choose_of("--arithmetic", bench_arithmetic, 2, &s->arithmetic, "single",
                            &out->arithmetic, r);
     return result == EXIT_DONE ? choose_numbers(s, out, r) : result;
 }

@@ -27,9 +27,9 @@ static void add_device(cJSON *row, const bench_settings *s, const bench_case *c)
 
     json_add_text(row, "device", cpu ? "cpu" : s->common.device);
     json_add_text(row, "isa", cpu ? crv_isa_name((crv_isa)c->isa) : NULL);
-    json_add_text(row, "structure", cpu ? bench_structure_name(structure) : NULL);
-    json_add_text(row, "depth_layout", cpu ? NULL : bench_layout_name(c->layout));
-    json_add_text(row, "arithmetic", cpu ? NULL : bench_arithmetic_name(c->arithmetic));
+    json_add_text(row, "structure", cpu ? bench_structures[structure] : NULL);
+    json_add_text(row, "depth_layout", cpu ? NULL : bench_layouts[c->layout]);
+    json_add_text(row, "arithmetic", cpu ? NULL : bench_arithmetic[c->arithmetic]);
     json_add_number(row, "threads", c->threads);
 }
 
