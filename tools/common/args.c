@@ -72,7 +72,6 @@ static int unknown_flag(const command *c, const char *flag, report *r)
     const char *names[FLAGS_MAX] = {"method", "preset", "filter"};
     char keys[FLAGS_MAX][64];
     int32_t count = c->library_options ? 3 : 0;
-
     for (size_t t = 0; c->tables[t]; t++)
         for (size_t i = 0; i < c->tables[t]->count && count < FLAGS_MAX; i++)
             if (c->tables[t]->rows[i].name[0] == '-')
@@ -98,7 +97,6 @@ static int wrong_value(const arg *row, const char *text, report *r)
 {
     char values[256];
     const char *nearest = NULL;
-
     args_describe_values(row, values, sizeof values);
     if (row->type == ARG_CHOICE)
         nearest = nearest_name(text, row->choices, -1);
@@ -132,7 +130,6 @@ static const char *last_value(const char *flag, int argc, char **argv)
 {
     const size_t length = strlen(flag);
     const char *value = NULL;
-
     for (int i = 0; i < argc && strcmp(argv[i], "--") != 0; i++) {
         if (strncmp(argv[i], flag, length) != 0)
             continue;
@@ -147,7 +144,6 @@ static const char *last_value(const char *flag, int argc, char **argv)
 static const char *method_name(const command *c, int argc, char **argv)
 {
     const char *name = last_value("--method", argc, argv);
-
     if (!name && c->method_flag && last_value(c->method_flag, argc, argv))
         name = c->method_of_flag;
     return name;
@@ -158,7 +154,6 @@ const crv_method *args_method(const command *c, int argc, char **argv)
     const char *name = method_name(c, argc, argv);
     const crv_method *method = name ? crv_method_find(name) : NULL;
     crv_options options;
-
     if (!method && crv_options_init(&options, sizeof options, NULL) == CRV_OK)
         method = options.method;
     return method;
@@ -169,7 +164,6 @@ static int set_method(const command *c, int argc, char **argv, common_settings *
                       report *r)
 {
     const char *name = method_name(c, argc, argv);
-
     if (!report_ok(r, crv_options_init(&common->options, sizeof common->options, NULL),
                    "options"))
         return EXIT_USAGE;
@@ -188,7 +182,6 @@ static int set_preset(int argc, char **argv, common_settings *common, report *r)
 {
     const char *name = last_value("--preset", argc, argv);
     const char *names[CRV_PRESET_COUNT];
-
     for (int i = 0; name && i < CRV_PRESET_COUNT; i++) {
         names[i] = crv_preset_name((crv_preset)i);
         if (strcmp(names[i], name) == 0)
@@ -211,7 +204,6 @@ static int set_library_option(const char *flag, size_t length, const char *text,
                               common_settings *common, report *r)
 {
     char key[64];
-
     memcpy(key, flag + 2, length - 2);
     key[length - 2] = '\0';
     if (strcmp(key, "method") == 0 || strcmp(key, "preset") == 0)
@@ -237,7 +229,6 @@ static int parse_flag(const command *c, int argc, char **argv, int *i, void *set
     const arg *row = find_flag(c, flag, length);
     const char *text = equals ? equals + 1 : NULL;
     char key[64] = "";
-
     if (!row && c->library_options && length > 2 && length < sizeof key
         && flag[1] == '-') {
         memcpy(key, flag + 2, length - 2);
@@ -273,7 +264,6 @@ static int parse_positional(const command *c, const char *text, size_t *index,
                             void *settings, report *r)
 {
     const arg *row = find_positional(c, *index);
-
     if (!row) {
         report_error(r, "\"%s\": one argument too many; see `crevice help %s`", text,
                      c->name);
@@ -324,7 +314,6 @@ int args_parse(const command *c, int argc, char **argv, void *settings, report *
     bool options_end = false;
     size_t positionals = 0;
     int result = EXIT_DONE;
-
     set_defaults(c, settings);
     if (c->library_options)
         result = set_method(c, argc, argv, common, r);

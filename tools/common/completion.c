@@ -67,7 +67,6 @@ static values values_of(const arg *row)
                                         "B",    "MODEL", "INPUT", NULL};
     const char *what = row->value ? row->value : row->name;
     values v = {.list = row->type == ARG_TEXTS && row->name[0] == '-'};
-
     if (row->type == ARG_CHOICE)
         add_all(&v, row->choices);
     else if (strncmp(what, "METHOD", 6) == 0)

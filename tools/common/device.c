@@ -40,7 +40,6 @@ void device_list_isas(char *out, size_t size)
 {
     const uint32_t available = crv_isa_available();
     size_t used = 0;
-
     out[0] = '\0';
     for (int i = CRV_ISA_SCALAR; crv_isa_name((crv_isa)i) && used < size; i++)
         if (available >> i & 1)
@@ -57,7 +56,6 @@ bool device_is_cpu(const common_settings *common)
 static bool parse_device(const char *name, crv_context_desc *desc)
 {
     int index = 0, end = 0;
-
     if (!name || strcmp(name, "cpu") == 0)
         return true;
     desc->device = CRV_DEVICE_VULKAN;
@@ -128,7 +126,6 @@ int device_context(const common_settings *common, const crv_logger *logger, repo
                    crv_context **out)
 {
     crv_context_desc desc;
-
     crv_context_desc_init(&desc, sizeof desc);
     desc.logger = *logger;
     desc.parallel = progress_loops(r, common->threads.value);
@@ -139,7 +136,6 @@ int device_context_in(const common_settings *common, const crv_logger *logger,
                       const crv_allocator *allocator, report *r, crv_context **out)
 {
     crv_context_desc desc;
-
     crv_context_desc_init(&desc, sizeof desc);
     desc.logger = *logger;
     desc.allocator = *allocator;

@@ -63,7 +63,6 @@ int estimate_depth(estimator *e, float **out, report *r)
 {
     float *depth = malloc((size_t)e->desc.width * (size_t)e->desc.height * sizeof *depth);
     crv_image view = crv_image_packed(depth, e->desc.width, e->desc.height, 1);
-
     if (!depth)
         return report_no_memory(r);
     if (!report_ok(r, crv_gbuffer_get_depth(e->gbuffer, 0, &view), "depth")) {
@@ -77,7 +76,6 @@ int estimate_depth(estimator *e, float **out, report *r)
 static bool reads(const crv_options *o, const char *key)
 {
     const crv_option *option = crv_option_find(key);
-
     return option && crv_option_applies(option, o->method, o->filter) != 0;
 }
 
@@ -92,7 +90,6 @@ static void tell(const estimator *e, double seconds, report *r)
 {
     const crv_options *o = &e->options;
     char samples[32] = "";
-
     if (reads(o, "directions") && reads(o, "steps"))
         snprintf(samples, sizeof samples, " %dx%d", o->directions, o->steps);
     else if (reads(o, "samples"))
@@ -111,7 +108,6 @@ int estimate_run(estimator *e, io_image *out, report *r)
     const int32_t width = e->desc.width - e->desc.guard_left - e->desc.guard_right;
     const int32_t height = e->desc.height - e->desc.guard_top - e->desc.guard_bottom;
     const double start = report_seconds();
-
     if (io_image_init(out, width, height, names, 1, &r->logger) != 0)
         return EXIT_FAILED;
     crv_image result = crv_image_packed(out->channels[0].data, width, height, 1);

@@ -54,7 +54,6 @@ static void normalise(kernel *k)
 {
     double positive = 0.0, negative = 0.0;
     const int32_t count = 2 * k->radius + 1;
-
     for (int32_t i = 0; i < count; i++) {
         positive += fmax(k->taps[i], 0.0);
         negative += fmax(-k->taps[i], 0.0);
@@ -74,7 +73,6 @@ static void make_kernels(double ppd, evaluation *e)
     const int32_t contrast_radius =
         (int32_t)ceil(3.0 * sqrt(b_widest / (2.0 * pi * pi)) * ppd);
     const int32_t feature_radius = (int32_t)ceil(3.0 * sigma);
-
     assert(contrast_radius <= RADIUS_MAX && feature_radius <= RADIUS_MAX);
     for (int32_t q = 0; q < KERNELS; q++)
         e->kernels[q].radius = q == CONTRAST ? contrast_radius : feature_radius;
@@ -98,7 +96,6 @@ static void make_kernels(double ppd, evaluation *e)
 static double luminance(float value)
 {
     const double v = fmin(fmax((double)value, 0.0), 1.0);
-
     return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
 }
 
@@ -111,7 +108,6 @@ static void filter_row(const evaluation *e, side *s, int32_t y)
 {
     const size_t w = (size_t)e->width, first = (size_t)y * w;
     const size_t place = (size_t)(y % e->ring) * w;
-
     for (size_t x = 0; x < w; x++) {
         const bool seen = !s->mask || s->mask[first + x];
         s->line[(size_t)e->support + x] = seen ? luminance(s->values[first + x]) : 1.0;
@@ -136,7 +132,6 @@ static void filter_row(const evaluation *e, side *s, int32_t y)
 static void filter_columns(const evaluation *e, side *s, int32_t y)
 {
     const size_t w = (size_t)e->width;
-
     while (s->next < e->height && s->next <= y + e->support)
         filter_row(e, s, s->next++);
     for (int32_t q = 0; q < PRODUCTS; q++) {
@@ -159,7 +154,6 @@ static double lightness(double y)
     const double delta = 6.0 / 29.0;
     const double f =
         y > delta * delta * delta ? cbrt(y) : y / (3.0 * delta * delta) + 4.0 / 29.0;
-
     return 116.0 * f - 16.0;
 }
 
@@ -169,7 +163,6 @@ static double colour_difference(const evaluation *e, double seen_a, double seen_
     const double a = lightness(fmin(fmax(seen_a, 0.0), 1.0));
     const double b = lightness(fmin(fmax(seen_b, 0.0), 1.0));
     const double difference = pow(fabs(a - b), 0.7); /* q_c */
-
     if (difference < knee)
         return difference * 0.95 / knee;
     return 0.95 + 0.05 * (difference - knee) / (e->largest_colour - knee);
@@ -183,21 +176,18 @@ static double pixel(const evaluation *e, const side *a, const side *b, size_t x)
                          - hypot(b->sums[POINT_X][x], b->sums[POINT_Y][x]);
     const double feature =
         sqrt(fmax(fabs(edge), fabs(point)) / sqrt(2.0)); /* q_f = 0.5 */
-
     return pow(colour_difference(e, a->sums[SEEN][x], b->sums[SEEN][x]), 1.0 - feature);
 }
 
 static size_t side_doubles(const evaluation *e)
 {
     const size_t w = (size_t)e->width;
-
     return w + 2 * (size_t)e->support + (KERNELS * (size_t)e->ring + PRODUCTS) * w;
 }
 
 static double *lay_out(const evaluation *e, side *s, double *memory)
 {
     const size_t w = (size_t)e->width;
-
     s->line = memory;
     memory += w + 2 * (size_t)e->support;
     for (int32_t q = 0; q < KERNELS; q++, memory += (size_t)e->ring * w)
@@ -214,7 +204,6 @@ bool flip_compare(const float *a, const float *b, const uint8_t *mask, int32_t w
     side first = {.values = a, .mask = mask}, second = {.values = b, .mask = mask};
     double sum = 0.0;
     int64_t count = 0;
-
     assert(ppd >= FLIP_PPD_MIN && ppd <= FLIP_PPD_MAX);
     make_kernels(ppd, &e);
     /* HyAB distance of Hunt-adjusted pure green and pure blue, to the power q_c = 0.7. */

@@ -21,7 +21,6 @@ const float heatmap_background = 0.2140411f; /* sRGB 0.5 */
 static double lab_inverse(double f)
 {
     const double delta = 6.0 / 29.0;
-
     return f > delta ? f * f * f : 3.0 * delta * delta * (f - 4.0 / 29.0);
 }
 
@@ -62,7 +61,6 @@ void heatmap_fill(const float *a, const float *b, const uint8_t *mask, size_t co
 static bool ends_in(const char *path, const char *extension)
 {
     const char *dot = strrchr(path, '.');
-
     return dot && strcasecmp(dot, extension) == 0;
 }
 
@@ -83,7 +81,6 @@ int heatmap_write(const char *path, const heatmap_source *source, report *r)
     const int32_t channels = ends_in(path, ".exr") ? 4 : 3;
     const size_t count = (size_t)source->width * (size_t)source->height;
     io_image image = {0};
-
     if (io_image_init(&image, source->width, source->height, names, channels, &r->logger)
         != 0)
         return EXIT_FAILED;

@@ -24,7 +24,6 @@ static const help_style plain = {.opening = open_plain,
 static void write_wrapped(FILE *out, const char *text, int column, int indent)
 {
     bool first = true, space = false;
-
     while (*text != '\0') {
         const size_t part = strcspn(text, " |");
         const int length = (int)part + (text[part] == '|');
@@ -47,7 +46,6 @@ static void write_wrapped(FILE *out, const char *text, int column, int indent)
 static void write_entry(FILE *out, const char *head, const char *text)
 {
     const int used = fprintf(out, "  %s", head);
-
     if (used < COLUMN - 1)
         fprintf(out, "%*s", COLUMN - used, "");
     else
@@ -59,7 +57,6 @@ static void write_entry(FILE *out, const char *head, const char *text)
 static void row_head(const arg *row, char *out, size_t size)
 {
     char shorthand[8] = "";
-
     if (row->short_name != 0)
         snprintf(shorthand, sizeof shorthand, "-%c, ", row->short_name);
     snprintf(out, size, "%s%s%s%s", shorthand, row->name, row->value ? " " : "",
@@ -71,7 +68,6 @@ static void row_text(const arg *row, char *out, size_t size)
 {
     const char *initial = row->computed ? row->computed : row->initial;
     char values[256];
-
     args_describe_values(row, values, sizeof values);
     const bool has_values = values[0] != '\0';
     snprintf(out, size, "%s%s%s%s%s%s%s", row->help, has_values || initial ? " [" : "",
@@ -90,7 +86,6 @@ void help_option_values(const crv_option *option, char *out, size_t size)
 {
     const char *space = option->unit[0] != '\0' ? " " : "";
     size_t used = 0;
-
     if (option->type == CRV_OPTION_BOOL) {
         snprintf(out, size, "on|off");
     } else if (option->type == CRV_OPTION_CHOICE) {
@@ -107,7 +102,6 @@ void help_option_values(const crv_option *option, char *out, size_t size)
 double help_default_value(const crv_option *option, const crv_method *method)
 {
     crv_options options;
-
     if (crv_options_init(&options, sizeof options, method ? method->name : NULL)
         != CRV_OK)
         return option->default_value;
@@ -118,7 +112,6 @@ void help_option_default(const crv_option *option, const crv_method *method, cha
                          size_t size)
 {
     const double value = help_default_value(option, method);
-
     if (option->type == CRV_OPTION_BOOL)
         snprintf(out, size, "%s", value > 0.0 ? "on" : "off");
     else if (option->type == CRV_OPTION_CHOICE)
@@ -132,7 +125,6 @@ static void write_option(FILE *out, const help_style *style, const crv_option *o
 {
     static const char *const value_names[] = {"X", "N", "on|off", "NAME"};
     char flag[80], head[96], values[256], initial[64], text[ENTRY_SIZE];
-
     help_option_flag(option, flag, sizeof flag);
     help_option_values(option, values, sizeof values);
     help_option_default(option, method, initial, sizeof initial);
@@ -161,7 +153,6 @@ static void write_presets(FILE *out, const help_style *style, const crv_method *
 {
     char text[ENTRY_SIZE];
     size_t used = (size_t)snprintf(text, sizeof text, "what to spend: ");
-
     for (int i = 0; i < CRV_PRESET_COUNT && used < sizeof text; i++)
         used += (size_t)snprintf(text + used, sizeof text - used, "%s%s",
                                  i == 0 ? "" : "|", crv_preset_name((crv_preset)i));
@@ -180,7 +171,6 @@ static void write_library_options(FILE *out, const help_style *style, const comm
                                   const crv_method *method)
 {
     char text[ENTRY_SIZE];
-
     style->heading(out, "Ambient occlusion");
     snprintf(text, sizeof text,
              "`crevice methods` says which method reads what. Defaults here are those of "
@@ -242,7 +232,6 @@ static void write_heading(FILE *out, const char *text)
 static void write_item(FILE *out, const char *head, const char *text)
 {
     const int column = fprintf(out, "%*s%-8s", COLUMN + 2, "", head);
-
     write_wrapped(out, text, column, column);
 }
 

@@ -20,7 +20,6 @@ static struct timespec caught_at;
 static void end_now(int number)
 {
     const int ending = caught != 0 ? (int)caught : number;
-
     signal(ending, SIG_DFL);
     raise(ending);
 }
@@ -38,7 +37,6 @@ void interrupt_hold(unsigned grace_s)
 {
     struct sigaction hold = {.sa_handler = on_signal, .sa_flags = SA_RESTART};
     struct sigaction late = {.sa_handler = end_now};
-
     caught = 0;
     grace = (int)grace_s;
     sigemptyset(&hold.sa_mask);
@@ -59,7 +57,6 @@ bool interrupt_waits(void)
 bool interrupt_is_late(void)
 {
     struct timespec now = {0};
-
     if (caught == 0)
         return false;
     clock_gettime(CLOCK_MONOTONIC, &now);

@@ -24,7 +24,6 @@ void json_add_text(cJSON *object, const char *key, const char *text)
     const size_t replacement = strlen(REPLACEMENT);
     char *valid = text ? malloc(replacement * strlen(text) + 1) : NULL;
     char *to = valid;
-
     if (!valid) {
         cJSON_AddNullToObject(object, key);
         return;
@@ -44,7 +43,6 @@ void json_add_text(cJSON *object, const char *key, const char *text)
 int json_print(cJSON *root, report *r)
 {
     char *text = root ? cJSON_Print(root) : NULL;
-
     cJSON_Delete(root);
     if (!text)
         return report_no_memory(r);

@@ -15,7 +15,6 @@ static void put_text(FILE *out, const char *text)
 {
     bool bold = false, begins = true;
     int column = 0;
-
     for (; *text != '\0'; text++, column++) {
         if (*text == ' ' && column > BREAK_COLUMN) {
             fputc('\n', out);
@@ -59,7 +58,6 @@ static void put_title(FILE *out, const char *name)
 static void open_page(FILE *out, const command *c)
 {
     char name[64];
-
     snprintf(name, sizeof name, "crevice-%s", c->name);
     put_title(out, name);
     fputs("\\- ", out);
@@ -125,7 +123,6 @@ void manual_command(FILE *out, const command *c)
 {
     char method[] = "--method";
     char *none[] = {method};
-
     help_write(out, &roff, c, args_method(c, 0, none));
 }
 
@@ -149,7 +146,6 @@ void manual_overview(FILE *out, const command *const *commands)
 static FILE *open_file(const char *folder, const char *name, report *r)
 {
     char path[PATH_SIZE];
-
     snprintf(path, sizeof path, "%s/%s", folder, name);
     FILE *out = fopen(path, "w");
     if (!out)
@@ -161,7 +157,6 @@ static FILE *open_file(const char *folder, const char *name, report *r)
 static int close_file(FILE *out, const char *name, report *r)
 {
     const bool written = ferror(out) == 0;
-
     if (fclose(out) == 0 && written)
         return EXIT_DONE;
     report_error(r, "%s: cannot be written; is the disk full?", name);

@@ -17,7 +17,6 @@ int64_t metrics_count_not_finite(const float *a, const uint8_t *mask, int32_t wi
 {
     const size_t count = (size_t)width * (size_t)height;
     int64_t found = 0;
-
     for (size_t i = 0; i < count; i++)
         found += (!mask || mask[i]) && !isfinite(a[i]);
     return found;
@@ -29,7 +28,6 @@ static bool compare_signed(const float *a, const float *b, const uint8_t *mask,
     size_t count = (size_t)width * (size_t)height, n = 0;
     double *errors = malloc((count > 0 ? count : 1) * sizeof *errors);
     double sum = 0.0;
-
     if (!errors)
         return false;
     for (size_t i = 0; i < count; i++) {
@@ -50,7 +48,6 @@ static void compare_pixels(const float *a, const float *b, const uint8_t *mask,
                            int32_t width, int32_t height, metrics *out)
 {
     double sum_a = 0.0, sum_b = 0.0, sum_error = 0.0, sum_square = 0.0;
-
     out->max_error = -1.0;
     for (int32_t y = 0; y < height; y++) {
         for (int32_t x = 0; x < width; x++) {
@@ -85,7 +82,6 @@ static void make_window(double weights[WINDOW])
 {
     const double sigma = 1.5;
     double sum = 0.0;
-
     for (int i = 0; i < WINDOW; i++) {
         const double r = i - WINDOW / 2;
         weights[i] = exp(-r * r / (2.0 * sigma * sigma));
@@ -101,7 +97,6 @@ static void sum_columns(const float *a, const float *b, const uint8_t *mask,
                         double *columns)
 {
     const size_t w = (size_t)width;
-
     memset(columns, 0, SUM_COUNT * w * sizeof *columns);
     for (int k = 0; k < WINDOW; k++) {
         const size_t row = ((size_t)y + (size_t)k) * w;
@@ -128,7 +123,6 @@ static double ssim_of_window(const double s[SUM_COUNT])
     const double variance_a = fmax(s[SUM_AA] - s[SUM_A] * s[SUM_A], 0.0);
     const double variance_b = fmax(s[SUM_BB] - s[SUM_B] * s[SUM_B], 0.0);
     const double covariance = s[SUM_AB] - s[SUM_A] * s[SUM_B];
-
     return (2.0 * s[SUM_A] * s[SUM_B] + c1) * (2.0 * covariance + c2)
            / ((s[SUM_A] * s[SUM_A] + s[SUM_B] * s[SUM_B] + c1)
               * (variance_a + variance_b + c2));
@@ -140,7 +134,6 @@ static bool compare_windows(const float *a, const float *b, const uint8_t *mask,
     double weights[WINDOW], sum = 0.0;
     const size_t w = (size_t)width;
     double *columns = calloc(SUM_COUNT * w, sizeof *columns);
-
     if (!columns)
         return false;
     make_window(weights);

@@ -35,7 +35,6 @@ typedef struct slope {
 static int by_darkness(const void *x, const void *y)
 {
     const sample *a = x, *b = y;
-
     if (a->dark > b->dark || a->dark < b->dark)
         return a->dark > b->dark ? -1 : 1;
     /* Sums must not depend on how qsort() orders equals. */
@@ -60,7 +59,6 @@ static bool gather(const float *a, const float *b, const uint8_t *mask, size_t c
 static void group(const samples *all, sample *memory, samples *out)
 {
     const size_t count = all->count < GROUPS_MAX ? all->count : GROUPS_MAX;
-
     *out = (samples){memory, count};
     for (size_t g = 0; g < count; g++) {
         const size_t first = all->count * g / count, end = all->count * (g + 1) / count;
@@ -77,7 +75,6 @@ static void group(const samples *all, sample *memory, samples *out)
 static double square_error(const samples *s, double intensity, double power)
 {
     double sum = 0.0;
-
     for (size_t i = 0; i < s->count; i++) {
         const double open = fmax(0.0, 1.0 - intensity * s->at[i].dark);
         const double error = pow(open, power) - s->at[i].wanted;
@@ -89,7 +86,6 @@ static double square_error(const samples *s, double intensity, double power)
 static slope slope_at(const samples *s, double intensity, double power)
 {
     slope out = {0};
-
     for (size_t i = 0; i < s->count; i++) {
         const sample *p = &s->at[i];
         const double open = 1.0 - intensity * p->dark, n = p->weight;
@@ -127,7 +123,6 @@ static metrics_curve step(const slope *at, const metrics_curve *from, double dam
     const double b = fixed ? 0.0 : at->hessian[1], determinant = a * c - b * b;
     double by_power = 0.0;
     metrics_curve to = *from;
-
     if (!fixed && determinant > 0.0)
         by_power = -(a * at->gradient[1] - b * at->gradient[0]) / determinant;
     else if (c > 0.0)
@@ -146,7 +141,6 @@ static void descend(const samples *s, bool fixed, metrics_curve *curve)
 {
     slope at = slope_at(s, curve->intensity, curve->power);
     double damping = 1e-3;
-
     for (int i = 0; i < ITERATIONS_MAX && damping < 1e9; i++) {
         metrics_curve to = step(&at, curve, damping, fixed);
         slope there = slope_at(s, to.intensity, to.power);
@@ -169,7 +163,6 @@ static metrics_curve search(const samples *s, bool fixed)
 {
     metrics_curve best = {.intensity = 1.0, .power = 1.0};
     double least = square_error(s, 1.0, 1.0);
-
     for (int i = 0; i <= (fixed ? 0 : INTENSITY_STEPS); i++) {
         const double intensity =
             fixed ? 1.0 : pow(METRICS_INTENSITY_MAX, 2.0 * i / INTENSITY_STEPS - 1.0);
@@ -194,7 +187,6 @@ static double best_intensity(const samples *s)
 {
     double best = 1.0, least = square_error(s, 1.0, 1.0);
     double slope_sum = 0.0, curvature = 0.0, lit = 0.0, black = 0.0;
-
     for (size_t i = 0; i < s->count; i++)
         black += s->at[i].wanted * s->at[i].wanted;
     least -= 1e-14 * black; /* if s does not matter, rounding shall not choose it */
@@ -257,7 +249,6 @@ bool metrics_fit_curves(const float *a, const float *b, const uint8_t *mask,
     const metrics_curve none = {NAN, NAN, NAN};
     sample memory[GROUPS_MAX];
     samples all, groups;
-
     *out = (metrics_fit){none, none, none};
     if (!gather(a, b, mask, (size_t)width * (size_t)height, &all))
         return false;

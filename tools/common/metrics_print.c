@@ -37,7 +37,6 @@ static void add_fit(cJSON *root, const metrics_fit *fit)
 int metrics_print_json(const metrics_findings *f, report *r)
 {
     cJSON *root = cJSON_CreateObject();
-
     json_add_text(root, "a", f->a);
     json_add_text(root, "b", f->b);
     json_add_number(root, "width", f->width);
@@ -56,7 +55,6 @@ int metrics_print_json(const metrics_findings *f, report *r)
 void metrics_print_text(const metrics_findings *f)
 {
     const metrics *m = &f->m;
-
     printf("pixels   %lld of %lld\n", (long long)m->pixels,
            (long long)f->width * f->height);
     printf("mean     %.6f and %.6f\n", m->mean_a, m->mean_b);

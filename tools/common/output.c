@@ -19,7 +19,6 @@ int output_spare(const char *path, const char *input, report *r)
 int output_check(const char *path, const char *input, report *r)
 {
     const int result = output_spare(path, input, r);
-
     if (result != EXIT_DONE)
         return result;
     return io_check_writable(path, &r->logger) == 0 ? EXIT_DONE : EXIT_FAILED;
@@ -29,7 +28,6 @@ int output_write(const char *path, const io_image *image, const io_write_options
                  report *r)
 {
     io_write_options with_stop = options ? *options : (io_write_options){0};
-
     with_stop.stop = interrupt_is_late;
     /* io_write() goes through a temporary file, which a signal in the middle would leave
      * behind. */

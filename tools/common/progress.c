@@ -19,7 +19,6 @@
 static void describe_time(double seconds, char *out, size_t size)
 {
     const long whole = seconds < 1e8 ? (long)(seconds + 0.5) : 100000000;
-
     if (whole >= 3600)
         snprintf(out, size, "%ld h %02ld min", whole / 3600, whole / 60 % 60);
     else if (whole >= 60)
@@ -41,7 +40,6 @@ progress progress_begin(report *r, const char *name, int64_t from, int64_t total
 static void show(progress *p, int64_t done, double now)
 {
     char time[64], line[128];
-
     p->told = now;
     describe_time((now - p->start) * (double)(p->total - done) / (double)(done - p->from),
                   time, sizeof time);
@@ -60,7 +58,6 @@ void progress_show(progress *p, int64_t done)
     const double now = report_seconds(), spent = now - p->start;
     const double whole = spent / (double)(done - p->from) * (double)(p->total - p->from);
     const double wait = p->terminal ? FRESH_SECONDS : LINE_SECONDS;
-
     if (p->r->quiet || done == p->from || done == p->total)
         return;
     if (p->told > 0.0 ? now - p->told >= wait
@@ -84,7 +81,6 @@ static void run_loop(void *user, uint32_t count, void (*task)(void *data, uint32
     const int threads = r->threads > 0 ? r->threads : omp_get_max_threads();
     progress p = progress_begin(r, "estimation", 0, (int64_t)count);
     uint32_t done = 0;
-
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
     for (uint32_t i = 0; i < count; i++) {
         uint32_t now_done;

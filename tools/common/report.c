@@ -16,7 +16,6 @@ enum { LINE_SIZE = 8192 };
 static void write_line(const char *prefix, const char *line)
 {
     char clean[LINE_SIZE];
-
     snprintf(clean, sizeof clean, "%s", line);
     io_clean_text(clean);
     fprintf(stderr, "%s%s\n", prefix, clean);
@@ -25,7 +24,6 @@ static void write_line(const char *prefix, const char *line)
 static void on_log(void *user, crv_log_level level, const char *line)
 {
     report *r = user;
-
     if (level == CRV_LOG_ERROR) {
         r->errors++;
         write_line("crevice: ", line);
@@ -56,7 +54,6 @@ crv_logger report_errors_only(report *r)
 static void write_formatted(const char *prefix, const char *format, va_list arguments)
 {
     char line[LINE_SIZE];
-
     vsnprintf(line, sizeof line, format, arguments);
     write_line(prefix, line);
 }
@@ -114,7 +111,6 @@ int report_no_memory(report *r)
 double report_seconds(void)
 {
     struct timespec now = {0};
-
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }

@@ -11,7 +11,6 @@
 bool args_number(const char *text, double *out)
 {
     char *end = NULL;
-
     if (text[0] == '\0' || isspace((unsigned char)text[0]))
         return false;
     const double value = strtod(text, &end);
@@ -24,7 +23,6 @@ bool args_number(const char *text, double *out)
 static bool set_int(const arg *row, const char *text, arg_int *out)
 {
     double value;
-
     if (!args_number(text, &value) || value < row->min || value > row->max
         || floor(value) < value)
         return false;
@@ -35,7 +33,6 @@ static bool set_int(const arg *row, const char *text, arg_int *out)
 static bool set_number(const arg *row, const char *text, arg_number *out)
 {
     double value;
-
     if (!args_number(text, &value) || value < row->min || value > row->max)
         return false;
     out->value = value;
@@ -46,7 +43,6 @@ static bool set_vector(const char *text, arg_vector *out)
 {
     char copy[128];
     char *part = copy;
-
     if (strlen(text) >= sizeof copy)
         return false;
     memcpy(copy, text, strlen(text) + 1);
@@ -72,7 +68,6 @@ static bool set_vector(const char *text, arg_vector *out)
 static bool edge(const char *text, const char **end, int32_t *out)
 {
     int64_t value = 0;
-
     if (!isdigit((unsigned char)*text))
         return false;
     for (; isdigit((unsigned char)*text); text++) {
@@ -88,7 +83,6 @@ static bool edge(const char *text, const char **end, int32_t *out)
 static bool set_size(const char *text, arg_size *out)
 {
     const char *rest;
-
     return edge(text, &rest, &out->width) && (*rest == 'x' || *rest == 'X')
            && edge(rest + 1, &rest, &out->height) && *rest == '\0';
 }
@@ -115,7 +109,6 @@ static bool add_text(const char *text, arg_texts *out)
 bool args_set_value(const arg *row, const char *text, void *settings)
 {
     void *member = (char *)settings + row->offset;
-
     switch (row->type) {
     case ARG_FLAG:
         *(bool *)member = true;
@@ -143,7 +136,6 @@ static void describe_choices(const arg *row, char *out, size_t size)
 {
     size_t used = 0;
     int32_t count = 0;
-
     while (row->choices[count])
         count++;
     /* Long lists need places at which a line may break. */
@@ -157,7 +149,6 @@ void args_describe_values(const arg *row, char *out, size_t size)
 {
     const char *space = row->unit ? " " : "";
     const char *unit = row->unit ? row->unit : "";
-
     out[0] = '\0';
     switch (row->type) {
     case ARG_FLAG:

@@ -112,7 +112,6 @@ int view_check(const view_settings *s, report *r)
 {
     int64_t guard = view_guard_px(s);
     const double *up = s->up.value;
-
     if (s->camera && (s->eye.given || s->target.given || s->up.given)) {
         report_error(r, "--camera: contradicts --eye, --target and --up; give one or the "
                         "other");
@@ -148,7 +147,6 @@ int view_load(const view_settings *s, scene **out, report *r)
     const double start = report_seconds();
     const int result = name ? scene_builtin(name, out, &r->logger)
                             : scene_load_limited(s->model, &limits, out, &r->logger);
-
     if (result != 0)
         return EXIT_FAILED;
     report_info(r, "%s: %lld triangles, %.2f s", s->model,
@@ -172,7 +170,6 @@ void view_cross(const double a[3], const double b[3], double out[3])
 double view_up_slant(const scene_view *v)
 {
     double d[3], up[3], cross[3], d2 = 0.0, up2 = 0.0, cross2 = 0.0;
-
     for (int i = 0; i < 3; i++) {
         d[i] = (double)v->target[i] - (double)v->eye[i];
         up[i] = (double)v->up[i];
@@ -189,7 +186,6 @@ double view_up_slant(const scene_view *v)
 static const scene_camera *find_camera(const scene *model, const char *name)
 {
     char *end;
-
     for (int32_t i = 0; i < scene_camera_count(model); i++)
         if (strcmp(scene_camera_at(model, i)->name, name) == 0)
             return scene_camera_at(model, i);
@@ -203,7 +199,6 @@ static int refuse_camera(const view_settings *s, const scene *model, report *r)
 {
     char names[400] = "";
     size_t used = 0;
-
     for (int32_t i = 0; i < scene_camera_count(model) && used < sizeof names; i++)
         used += (size_t)snprintf(names + used, sizeof names - used, "%s%s",
                                  i > 0 ? ", " : "", scene_camera_at(model, i)->name);
@@ -219,7 +214,6 @@ static int choose_camera(const view_settings *s, const scene *model, scene_view 
                          report *r)
 {
     const scene_camera *camera = find_camera(model, s->camera);
-
     if (!camera)
         return refuse_camera(s, model, r);
     *v = camera->view;
@@ -238,7 +232,6 @@ static int choose_view(const view_settings *s, const scene *model, scene_view *v
 {
     const float vfov = (float)((s->vfov_deg.given ? s->vfov_deg.value : 45.0) * degree);
     double lower[3], upper[3];
-
     scene_frame(model, vfov, (float)s->size.width / (float)s->size.height, v);
     if (s->camera && choose_camera(s, model, v, r) != EXIT_DONE)
         return EXIT_FAILED;
@@ -279,7 +272,6 @@ static int choose_view(const view_settings *s, const scene *model, scene_view *v
 bool view_shows_something(const scene_gbuffer *g)
 {
     const crv_gbuffer_desc *d = &g->desc;
-
     for (int32_t y = d->guard_top; y < d->height - d->guard_bottom; y++)
         for (int32_t x = d->guard_left; x < d->width - d->guard_right; x++)
             if (isfinite(g->depth[0][(size_t)y * (size_t)d->width + (size_t)x]))
@@ -330,7 +322,6 @@ static void tell_view(const scene *model, const scene_view *v, report *r)
 {
     const bool ortho = v->projection == CRV_ORTHOGRAPHIC;
     char eye[96], target[96], up[96], number[32];
-
     report_info(r, "camera: --eye %s --target %s --up %s %s %s",
                 exact_vector(model, v->eye, eye), exact_vector(model, v->target, target),
                 exact_vector(NULL, v->up, up), ortho ? "--ortho" : "--vfov",
@@ -346,7 +337,6 @@ static void announce(const scene *model, const scene_gbuffer_request *request, r
     const crv_logger errors = report_errors_only(r);
     scene_gbuffer_request trial = *request;
     scene_gbuffer cast = {0};
-
     if (pixels * request->layers < MANY_SAMPLES)
         return;
     trial.width = request->width / TRIAL_SHARE + 1;
@@ -378,7 +368,6 @@ int view_render(const view_settings *s, const scene *model, bool texture_frames,
     };
     const double start = report_seconds();
     const int result = choose_view(s, model, &request.view, r);
-
     if (result != EXIT_DONE)
         return result;
     tell_view(model, &request.view, r);

@@ -150,7 +150,6 @@ static const crv_option *split_set(const char *given, const char **value)
 {
     const char *equals = strchr(given, '=');
     char key[64] = "";
-
     if (!equals || (size_t)(equals - given) >= sizeof key)
         return NULL;
     memcpy(key, given, (size_t)(equals - given));
@@ -168,7 +167,6 @@ static const crv_method *method_of(int32_t index)
 static int check_sets(const bench *b)
 {
     const bench_list *methods = &b->choices.methods;
-
     for (int32_t i = 0; i < b->settings->sets.count; i++) {
         const char *given = b->settings->sets.value[i], *value;
         const crv_option *option = split_set(given, &value);
@@ -213,7 +211,6 @@ static int make_options(const bench *b, const bench_scene *on, int32_t method,
     const crv_logger log = report_errors_only(b->r);
     const crv_method *chosen = method_of(method);
     crv_options *o = &out->options;
-
     *out = (bench_case){.scene = on, .filter_only = !chosen, .preset = "none"};
     crv_options_init(o, sizeof *o, chosen ? chosen->name : NULL);
     if (chosen) {
@@ -234,7 +231,6 @@ static void tell_progress(const bench *b, const bench_case *c)
 {
     const double seconds = report_seconds() - b->started;
     const double left = b->done > 0 ? seconds / b->done * (b->count - b->done) : 0.0;
-
     if (!b->rows)
         return; /* the table's lines tell */
     report_info(b->r, "%d of %d: %s %s, %s; %.0f s left", b->done + 1, b->count,
@@ -245,7 +241,6 @@ static void tell_progress(const bench *b, const bench_case *c)
 static int measure(bench *b, const bench_case *c)
 {
     bench_outcome outcome;
-
     tell_progress(b, c);
     const int result = bench_measure(b->settings, &b->clock, c, b->r, &outcome);
     b->done++;
@@ -272,7 +267,6 @@ static int run_ways(bench *b, bench_case *c)
                              o->layouts.count, o->arithmetic.count};
     int32_t total = 1;
     int result = EXIT_DONE;
-
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
         total *= sizes[i];
     for (int32_t k = 0; k < total && result == EXIT_DONE; k++) {
@@ -304,7 +298,6 @@ static int run_scene(bench *b, const bench_scene *on)
 {
     const bench_choices *o = &b->choices;
     int result = EXIT_DONE;
-
     for (int32_t m = 0; m < o->methods.count; m++)
         for (int32_t p = 0; p < o->presets.count; p++)
             for (int32_t f = 0; f < o->filters.count; f++)
@@ -327,7 +320,6 @@ static int run_input(bench *b, const char *input)
     const int32_t sizes = bench_is_frame(input) ? 1 : b->choices.size_count;
     scene *model = NULL;
     int result = EXIT_DONE;
-
     if (!bench_is_frame(input))
         result = bench_load_model(input, &model, b->r);
     for (int32_t i = 0; i < sizes && result == EXIT_DONE; i++) {
@@ -346,7 +338,6 @@ static int run_input(bench *b, const char *input)
 static int32_t count_cases(const bench_choices *o)
 {
     int32_t ways = 0, works = 0;
-
     for (int32_t i = 0; i < o->isas.count; i++)
         ways += o->isas.at[i] == (int32_t)CRV_ISA_SCALAR ? 1 : o->structures.count;
     for (int32_t m = 0; m < o->methods.count; m++)
@@ -361,7 +352,6 @@ static int32_t count_cases(const bench_choices *o)
 static int announce(bench *b, const arg_texts *inputs)
 {
     int32_t scenes = 0;
-
     for (int32_t i = 0; i < inputs->count; i++)
         scenes += bench_is_frame(inputs->value[i]) ? 1 : b->choices.size_count;
     b->count = scenes * count_cases(&b->choices);
@@ -379,7 +369,6 @@ static int announce(bench *b, const arg_texts *inputs)
 static int run_inputs(bench *b, const arg_texts *inputs, const machine *m)
 {
     int result = EXIT_DONE;
-
     for (int32_t i = 0; i < inputs->count && result == EXIT_DONE; i++)
         result = bench_check_input(b->settings, inputs->value[i], b->r);
     if (result == EXIT_DONE)
@@ -398,7 +387,6 @@ static int run_inputs(bench *b, const arg_texts *inputs, const machine *m)
 static cJSON *describe(bench *b, const machine *m)
 {
     cJSON *root = cJSON_CreateObject();
-
     json_add_text(root, "version", crv_version());
     json_add_text(root, "compiler", m->compiler);
     json_add_text(root, "processor", m->processor);
@@ -413,7 +401,6 @@ static int run(const void *settings, report *r)
     const bench_settings *s = settings;
     bench b = {.settings = s, .r = r, .device = !device_is_cpu(&s->common)};
     int result = bench_choose(s, &b.choices, r);
-
     if (result == EXIT_DONE)
         result = check_sets(&b);
     if (result != EXIT_DONE)

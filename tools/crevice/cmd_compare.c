@@ -91,7 +91,6 @@ static const char *choose_channel(const char *path, const io_image *probe,
                                   const char *wanted, report *r)
 {
     const char *grey[] = {"AO", "Y"};
-
     if (wanted)
         return wanted; /* io_read() lists them if it is not one of them */
     if (probe->channel_count == 1)
@@ -107,7 +106,6 @@ static const char *choose_channel(const char *path, const io_image *probe,
 static const float *channel_data(const io_image *image, const char *name)
 {
     const io_channel *channel = io_image_find(image, name);
-
     return channel ? channel->data : NULL;
 }
 
@@ -117,7 +115,6 @@ static int load(const char *path, const char *wanted, picture *out, report *r)
     char name[IO_NAME_SIZE];
     const char *names[5];
     int32_t count = 0;
-
     if (io_probe(path, &probe, &r->logger) != 0)
         return EXIT_FAILED;
     const char *chosen = choose_channel(path, &probe, wanted, r);
@@ -158,7 +155,6 @@ static uint8_t *make_mask(const picture *a, const picture *b, report *r)
 {
     const size_t count = (size_t)a->image.width * (size_t)a->image.height;
     uint8_t *mask = malloc(count);
-
     if (!mask) {
         report_no_memory(r);
         return NULL;
@@ -173,7 +169,6 @@ static bool finite_values(const char *path, const picture *p, const uint8_t *mas
 {
     const int64_t bad =
         metrics_count_not_finite(p->values, mask, p->image.width, p->image.height);
-
     if (bad > 0)
         report_error(r, "%s: %lld compared values are NaN or infinite; mend the picture",
                      path, (long long)bad);
@@ -184,7 +179,6 @@ static int measure(const compare_settings *s, const picture *a, const picture *b
                    const uint8_t *mask, metrics_findings *f, report *r)
 {
     const int32_t width = a->image.width, height = a->image.height;
-
     if (!finite_values(s->a, a, mask, r) || !finite_values(s->b, b, mask, r))
         return EXIT_FAILED;
     if (!metrics_compare(a->values, b->values, mask, width, height, &f->m))
@@ -214,7 +208,6 @@ static int compare(const compare_settings *s, const picture *a, const picture *b
                           .flip_ppd = s->ppd.value,
                           .heat_map = s->heat_map,
                           .heat_scale = s->heat_scale.value};
-
     if (a->image.width != b->image.width || a->image.height != b->image.height) {
         report_error(r, "%s: is %dx%d, but %s is %dx%d; compare pictures of one size",
                      s->b, b->image.width, b->image.height, s->a, a->image.width,
@@ -251,7 +244,6 @@ static int run(const void *settings, report *r)
     const compare_settings *s = settings;
     picture a = {0}, b = {0};
     int result = check_heat_map(s, r);
-
     if (result == EXIT_DONE)
         result = load(s->a, s->channel, &a, r);
     if (result == EXIT_DONE)

@@ -26,7 +26,6 @@ static const char *const examples[] = {
 static void print_device(int32_t index, const crv_device_info *info)
 {
     char name[32];
-
     snprintf(name, sizeof name, "vulkan:%d", index);
     printf("%-10s %s (%s%s)\n", name, info->name, info->driver,
            info->software ? "; a CPU" : "");
@@ -38,7 +37,6 @@ static void add_device(cJSON *list, int32_t index, const crv_device_info *info)
 {
     cJSON *object = cJSON_CreateObject();
     char name[32];
-
     snprintf(name, sizeof name, "vulkan:%d", index);
     json_add_text(object, "device", name);
     json_add_text(object, "name", info->name);
@@ -64,7 +62,6 @@ static int run(const void *settings, report *r)
     cJSON *list = cJSON_AddArrayToObject(root, "vulkan");
     crv_device_info info;
     int32_t count = 0;
-
     device_list_isas(sets, sizeof sets);
     if (!s->json)
         printf("%-10s %s\n", "cpu", sets);

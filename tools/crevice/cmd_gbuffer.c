@@ -29,7 +29,6 @@ static int check(const view_settings *s, report *r)
 {
     size_t length = strlen(s->output);
     int result = view_check(s, r);
-
     if (result != EXIT_DONE)
         return result;
     if (length < 4 || strcmp(s->output + length - 4, ".exr") != 0) {
@@ -47,7 +46,6 @@ static int run(const void *settings, report *r)
     scene_gbuffer g = {0};
     io_image image = {0};
     int result = check(s, r);
-
     if (result == EXIT_DONE)
         result = view_load(s, &model, r);
     if (result == EXIT_DONE)

@@ -52,7 +52,6 @@ static bool filter_reads(const crv_option *option, const crv_filter *filter)
 static void print_option_brief(const crv_option *option, const crv_method *method)
 {
     char flag[80], values[256], initial[64];
-
     help_option_flag(option, flag, sizeof flag);
     help_option_values(option, values, sizeof values);
     help_option_default(option, method, initial, sizeof initial);
@@ -117,7 +116,6 @@ static cJSON *option_json(const crv_option *option, const crv_method *method)
     static const char *const types[] = {"float", "int", "bool", "choice"};
     cJSON *object = cJSON_CreateObject();
     char flag[80], initial[64];
-
     help_option_flag(option, flag, sizeof flag);
     help_option_default(option, method, initial, sizeof initial);
     cJSON_AddStringToObject(object, "key", option->key);
@@ -167,7 +165,6 @@ static void add_method(cJSON *list, const crv_method *method)
 static void add_filter(cJSON *list, const crv_filter *filter)
 {
     cJSON *object = cJSON_CreateObject();
-
     cJSON_AddStringToObject(object, "name", filter->name);
     cJSON_AddStringToObject(object, "title", filter->title);
     cJSON_AddStringToObject(object, "paper", filter->paper);
@@ -183,7 +180,6 @@ static int print_json(const crv_method *method, const crv_filter *filter, report
 {
     const bool all = !method && !filter;
     cJSON *root = cJSON_CreateObject();
-
     cJSON_AddStringToObject(root, "version", crv_version());
     cJSON *list = cJSON_AddArrayToObject(root, "methods");
     for (int32_t i = 0; i < crv_method_count(); i++)
@@ -200,7 +196,6 @@ static int unknown_name(const char *name, report *r)
 {
     const char *names[64];
     int32_t count = 0;
-
     for (int32_t i = 0; i < crv_method_count() && count < 64; i++)
         names[count++] = crv_method_at(i)->name;
     for (int32_t i = 0; i < crv_filter_count() && count < 64; i++)
@@ -218,7 +213,6 @@ static int run(const void *settings, report *r)
     const methods_settings *s = settings;
     const crv_method *method = s->name ? crv_method_find(s->name) : NULL;
     const crv_filter *filter = s->name ? crv_filter_find(s->name) : NULL;
-
     if (s->name && !method && !filter)
         return unknown_name(s->name, r);
     if (s->json)

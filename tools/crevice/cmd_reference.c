@@ -135,7 +135,6 @@ static int check(const reference_settings *s, reference_run *run, report *r)
     size_t length = strlen(output);
     bool sphere = s->definition.value == REFERENCE_TANGENT_SPHERE;
     int result = view_check(&s->view, r);
-
     if (result != EXIT_DONE)
         return result;
     if (length < 4 || strcmp(output + length - 4, ".exr") != 0) {
@@ -183,7 +182,6 @@ static reference_options options_of(const reference_settings *s, const scene *mo
                                                    : SCENE_NORMALS_FACE,
         .seed = (uint32_t)s->seed.value,
     };
-
     if (!s->radius.given) {
         o.radius = scene_suggest_radius(model, &g->view);
         report_info(r, "radius: --radius %g, chosen to suit the view", (double)o.radius);
@@ -197,7 +195,6 @@ static void copy_inside(const scene_gbuffer *g, const float *from, io_image *ima
 {
     const crv_gbuffer_desc *d = &g->desc;
     float *to = io_image_find(image, name)->data;
-
     for (int32_t y = 0; y < image->height; y++)
         memcpy(to + (size_t)y * (size_t)image->width,
                from + (size_t)(y + d->guard_top) * (size_t)d->width
@@ -210,7 +207,6 @@ static int copy_normals(const scene_gbuffer *g, const char *const names[3],
 {
     size_t count = (size_t)g->desc.width * (size_t)g->desc.height;
     float *block = malloc(3 * count * sizeof *block);
-
     if (!block)
         return report_no_memory(r);
     gbuffer_world_normals(g, (float *const[]){block, block + count, block + 2 * count});
@@ -226,7 +222,6 @@ static int write_result(const reference_settings *s, const reference *work,
     static const char *const names[] = {"AO", "AO.stderr", "N.X", "N.Y", "N.Z", "Z"};
     size_t size = (size_t)reference_total(work) * sizeof(float);
     io_image image = {0};
-
     if (io_image_init(&image, s->view.size.width, s->view.size.height, names, 6,
                       &r->logger)
         != 0)
@@ -247,7 +242,6 @@ static int trace(const reference_settings *s, const scene *model, const scene_gb
 {
     reference_options o = options_of(s, model, g, r);
     double start = report_seconds();
-
     if (reference_create(model, g, &o, &run->work, &r->logger) != 0)
         return EXIT_FAILED;
     int result = reference_run_all(run, s->view.output, s->resume, o.rays,
@@ -271,7 +265,6 @@ static int run(const void *settings, report *r)
     scene_gbuffer g = {0};
     reference_run state = {0};
     int result = check(s, &state, r);
-
     if (result == EXIT_DONE)
         result = view_load(&s->view, &model, r);
     if (result == EXIT_DONE)

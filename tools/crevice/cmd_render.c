@@ -72,7 +72,6 @@ static int check(const render_settings *s, report *r)
 {
     const char *paths[] = {s->view.output, s->lit, s->unlit};
     int result = view_check(&s->view, r);
-
     if (result == EXIT_DONE)
         result = relief_check(s, r);
     if (result == EXIT_DONE)
@@ -103,7 +102,6 @@ static void check_open(const render_settings *s, const scene_gbuffer *g,
                        const io_image *ao, double radius, report *r)
 {
     const size_t count = (size_t)ao->width * (size_t)ao->height;
-
     for (size_t i = 0; i < count; i++)
         if (!((double)ao->channels[0].data[i] > 1.0 - 0.5 / 255.0))
             return;
@@ -119,7 +117,6 @@ static int estimate(const render_settings *s, const scene *model, const scene_gb
 {
     crv_options options = s->view.common.options;
     estimator e;
-
     if (!s->view.common.radius_given) {
         options.radius = scene_suggest_radius(model, &g->view);
         report_info(r, "radius: --radius %g, chosen to suit the view",
@@ -148,7 +145,6 @@ static int reduce(const io_image *image, int32_t n, io_image *out, report *r)
 {
     const char *names[4] = {NULL};
     const int32_t width = image->width / n, height = image->height / n;
-
     for (int32_t c = 0; c < image->channel_count; c++)
         names[c] = image->channels[c].name;
     if (io_image_init(out, width, height, names, image->channel_count, &r->logger) != 0)
@@ -173,7 +169,6 @@ static int write_image(const render_settings *s, const char *path, const io_imag
                        bool srgb, report *r)
 {
     io_image small = {0};
-
     if (s->aa.value > 1) {
         int result = reduce(image, s->aa.value, &small, r);
         if (result == EXIT_DONE) {
@@ -208,7 +203,6 @@ static int write_lit(const render_settings *s, const char *path, const stage *li
     crv_image access = {0};
     io_image image = {0};
     int result = EXIT_FAILED;
-
     if (!pixels)
         return report_no_memory(r);
     if (ao)
@@ -232,7 +226,6 @@ static int write_all(const render_settings *s, const stage *lit, const io_image 
 {
     const char *output = s->view.output;
     int result = EXIT_DONE;
-
     if (s->shade.value == SHADE_AO)
         result = write_image(s, output, ao, false, r);
     else
@@ -267,7 +260,6 @@ static render_settings enlarged(const render_settings *given)
     render_settings s = *given;
     const int32_t n = s.aa.value;
     crv_options *o = &s.view.common.options;
-
     if (n == 1)
         return s;
     s.view.guard_px = (arg_int){.given = true, .value = n * view_guard_px(&given->view)};
@@ -285,7 +277,6 @@ static int run(const void *settings, report *r)
     work w = {0};
     stage lit;
     int result = check(s, r);
-
     if (result == EXIT_DONE)
         result = lighting_load(s, &w.light, r);
     if (result == EXIT_DONE)

@@ -15,7 +15,6 @@ void gbuffer_describe_camera(const scene_gbuffer *g, io_image *image)
     double cx = ((double)g->camera.cx_px - g->desc.guard_left) / image->display_width;
     double cy = ((double)g->camera.cy_px - g->desc.guard_top) / image->display_height;
     bool ortho = g->camera.projection == CRV_ORTHOGRAPHIC;
-
     for (int row = 0; row < 4; row++) {
         double view[4] = {0.0, 0.0, 0.0, row == 3 ? 1.0 : 0.0};
 
@@ -44,7 +43,6 @@ void gbuffer_world_normals(const scene_gbuffer *g, float *const out[3])
 {
     size_t count = (size_t)g->desc.width * (size_t)g->desc.height;
     const float *m = g->camera.world_to_view;
-
     for (size_t i = 0; i < count; i++) {
         const float *n = &g->normals[3 * i];
         for (int k = 0; k < 3; k++)
@@ -61,7 +59,6 @@ int gbuffer_make_image(const scene_gbuffer *g, io_image *image, const crv_logger
     const char *const *names = g->desc.layer_kind == CRV_LAYERS_SOLID ? solids : surfaces;
     size_t count = (size_t)g->desc.width * (size_t)g->desc.height;
     float *normals[3];
-
     if (io_image_init(image, g->desc.width, g->desc.height, names, 3 + g->desc.layers,
                       log)
         != 0)

@@ -7,7 +7,6 @@
 void help_scenes(FILE *out)
 {
     const scene_parameter *p;
-
     fprintf(out, "Scenes made in code, as MODEL: builtin:NAME or "
                  "builtin:NAME,KEY=VALUE\n\n");
     for (int32_t i = 0; scene_builtin_name(i); i++) {

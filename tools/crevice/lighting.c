@@ -37,7 +37,6 @@ static int numbers(const char *text, double *out, int max)
     char copy[128];
     char *part = copy;
     int count = 0;
-
     if (strlen(text) >= sizeof copy)
         return -1;
     memcpy(copy, text, strlen(text) + 1);
@@ -57,7 +56,6 @@ static int numbers(const char *text, double *out, int max)
 static int set_key_light(const char *text, scene_lighting *l, report *r)
 {
     double value[3] = {0.0, 0.0, 1.0};
-
     if (strcmp(text, "none") == 0) {
         memset(l->key_colour, 0, sizeof l->key_colour);
         return EXIT_DONE;
@@ -84,7 +82,6 @@ static int set_key_light(const char *text, scene_lighting *l, report *r)
 static int set_constant(const char *text, scene_lighting *l, report *r)
 {
     double value[3];
-
     l->sky = SCENE_SKY_CONSTANT;
     if (text[0] == '\0')
         return EXIT_DONE;
@@ -107,7 +104,6 @@ static int load_picture(const char *path, lighting *l, report *r)
     static const char *const names[] = {"R", "G", "B"};
     io_image image = {0};
     int result = EXIT_FAILED;
-
     if (io_read(path, names, 3, &image, &r->logger) != 0)
         return EXIT_FAILED;
     const size_t count = (size_t)image.width * (size_t)image.height;
@@ -131,7 +127,6 @@ static int load_picture(const char *path, lighting *l, report *r)
 static bool is_picture(const char *text)
 {
     size_t length = strlen(text);
-
     return length > 4
            && (strcmp(text + length - 4, ".exr") == 0
                || strcmp(text + length - 4, ".pfm") == 0);
@@ -140,7 +135,6 @@ static bool is_picture(const char *text)
 static int set_sky(const char *text, lighting *l, report *r)
 {
     static const char *const kinds[] = {"painted", "constant", "gradient", NULL};
-
     if (strncmp(text, "constant", 8) == 0 && (text[8] == '\0' || text[8] == ':'))
         return set_constant(text + 8, &l->scene, r);
     if (strcmp(text, "gradient") == 0 || strcmp(text, "painted") == 0) {
@@ -169,7 +163,6 @@ static void turn(scene_lighting *l, const double up[3])
     double p[3] = {up[2] / length, 0.0, -up[0] / length};
     double cosine = up[1] / length;
     double v[3], once[3], twice[3];
-
     for (int i = 0; i < 3; i++)
         l->sky_up[i] = (float)((double)up[i] / length);
     for (int i = 0; i < 3; i++)
@@ -192,7 +185,6 @@ int lighting_check(const render_settings *s, report *r)
                         : s->key_light    ? "--key-light"
                         : s->zenith.given ? "--zenith"
                                           : NULL;
-
     if (given && s->shade.value == SHADE_AO && !s->lit && !s->unlit) {
         report_error(r, "%s: lights no picture; add --lit FILE or --shade lit", given);
         return EXIT_USAGE;
@@ -208,7 +200,6 @@ int lighting_load(const render_settings *s, lighting *out, report *r)
 {
     static const double usual[3] = {0.0, 1.0, 0.0};
     int result = EXIT_DONE;
-
     *out = (lighting){.scene = scene_lighting_default()};
     if (s->key_light)
         result = set_key_light(s->key_light, &out->scene, r);

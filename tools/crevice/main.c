@@ -28,7 +28,6 @@ static const command *find_command(const char *name, report *r)
 {
     const char *names[16];
     int32_t count = 0;
-
     for (; commands[count]; count++) {
         if (strcmp(commands[count]->name, name) == 0)
             return commands[count];
@@ -152,7 +151,6 @@ static void limit_threads(report *r)
 int main(int argc, char **argv)
 {
     report r;
-
     report_init(&r);
     limit_threads(&r);
     signal(SIGXFSZ, SIG_IGN); /* a limit on file sizes is an error of write() then */

@@ -24,7 +24,6 @@ int reference_run_check(reference_run *run, const char *output, bool resume, rep
 {
     static const char extension[] = ".checkpoint";
     size_t length = strlen(output);
-
     run->checkpoint = malloc(length + sizeof extension);
     if (!run->checkpoint)
         return report_no_memory(r);
@@ -43,7 +42,6 @@ int reference_run_check(reference_run *run, const char *output, bool resume, rep
 static int try_room(reference_run *run, const char *output, report *r)
 {
     size_t picture = (size_t)reference_total(run->work) * 6 * sizeof(float) + 65536;
-
     return reference_save(run->work, run->checkpoint, &r->logger) == 0
                    && io_check_room(output, picture, &r->logger) == 0
                ? EXIT_DONE
@@ -74,7 +72,6 @@ static int begin(reference_run *run, const char *output, bool resume, report *r)
 static void save(reference_run *run, report *r)
 {
     crv_logger errors = report_errors_only(r);
-
     run->is_saved = reference_save(run->work, run->checkpoint, &errors) == 0;
 }
 
@@ -85,7 +82,6 @@ static void compute(reference_run *run, int32_t rays, int32_t threads, report *r
                                 reference_total(run->work));
     double last_save = p.start;
     int64_t batch = FIRST_BATCH;
-
     run->is_saved = true;
     while (reference_done(run->work) < reference_total(run->work) && !interrupt_waits()) {
         const double start = report_seconds();

@@ -39,7 +39,6 @@ static int wrong_method(const crv_method *method, report *r)
 {
     char names[256] = "";
     size_t used = 0;
-
     for (int32_t i = 0; i < crv_method_count() && used < sizeof names; i++)
         if (reads_relief(crv_method_at(i)))
             used += (size_t)snprintf(names + used, sizeof names - used, "%s--method %s",
@@ -74,7 +73,6 @@ int relief_load(const render_settings *s, io_image *map, report *r)
     io_image probed = {0};
     const char *name = NULL;
     int result = EXIT_FAILED;
-
     if (!s->height_map)
         return EXIT_DONE;
     if (io_probe(s->height_map, &probed, &r->logger) != 0)
@@ -101,7 +99,6 @@ int relief_check_mesh(const render_settings *s, const scene_gbuffer *g, report *
 {
     size_t count = (size_t)g->desc.width * (size_t)g->desc.height;
     size_t surface = 0, bare = 0;
-
     if (!s->height_map)
         return EXIT_DONE;
     for (size_t i = 0; i < count; i++) {
@@ -129,7 +126,6 @@ int relief_apply(const render_settings *s, const io_image *map, const scene_gbuf
                  crv_gbuffer *gbuffer, report *r)
 {
     int32_t width = g->desc.width, height = g->desc.height;
-
     if (!s->height_map)
         return EXIT_DONE;
     crv_height_field field = (crv_height_field){
@@ -149,7 +145,6 @@ int relief_apply(const render_settings *s, const io_image *map, const scene_gbuf
 static double texel(const io_image *map, double column, double row, bool clamp)
 {
     double width = map->width, height = map->height;
-
     column = clamp ? fmin(fmax(column, 0.0), width - 1.0)
                    : column - width * floor(column / width);
     row = clamp ? fmin(fmax(row, 0.0), height - 1.0) : row - height * floor(row / height);
@@ -169,7 +164,6 @@ static void slopes(const io_image *map, const float uv[2], bool clamp, double *b
     double b = texel(map, floor(x) + 1.0, floor(y), clamp);
     double c = texel(map, floor(x), floor(y) + 1.0, clamp);
     double d = texel(map, floor(x) + 1.0, floor(y) + 1.0, clamp);
-
     *by_u = ((1.0 - t) * (b - a) + t * (d - c)) * map->width;
     *by_v = ((1.0 - s) * (c - a) + s * (d - b)) * map->height;
 }
@@ -179,7 +173,6 @@ static void bend(double by_u, double by_v, const float *tangent, const float *bi
                  float n[3])
 {
     double along_u[3], along_v[3], normal[3], length = 0.0, side = 0.0;
-
     for (int k = 0; k < 3; k++) {
         along_u[k] = (double)tangent[k] + by_u * (double)n[k];
         along_v[k] = (double)bitangent[k] + by_v * (double)n[k];
@@ -200,7 +193,6 @@ void relief_bend_normals(const render_settings *s, const io_image *map, scene_gb
 {
     size_t count = (size_t)g->desc.width * (size_t)g->desc.height;
     double scale = s->height_scale.value;
-
     if (!s->height_map)
         return;
     for (size_t i = 0; i < count; i++) {

@@ -23,7 +23,6 @@ enum { RUNS_FEW = 3 };
 static int open_counter(void)
 {
     struct perf_event_attr what;
-
     memset(&what, 0, sizeof what);
     what.size = sizeof what;
     what.type = PERF_TYPE_HARDWARE;
@@ -43,7 +42,6 @@ static int open_counter(void)
 static double read_counter(const bench_clock *c)
 {
     uint64_t value = 0;
-
     if (c->counter < 0 || read(c->counter, &value, sizeof value) != sizeof value)
         return NAN;
     return (double)value;
@@ -52,7 +50,6 @@ static double read_counter(const bench_clock *c)
 static double cpu_seconds(void)
 {
     struct timespec now = {0};
-
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
@@ -87,7 +84,6 @@ static bool take(const bench_clock *c, bool (*run)(void *data), void *data, samp
 {
     const double cycles = read_counter(c), cpu = cpu_seconds(), start = report_seconds();
     const bool good = run(data);
-
     out->seconds = report_seconds() - start;
     out->cpu = cpu_seconds() - cpu;
     out->cycles = read_counter(c) - cycles;
@@ -98,7 +94,6 @@ static void summarise(const bench_clock *c, const sample *samples, int32_t count
                       bench_time *out)
 {
     double values[BENCH_RUNS_MAX];
-
     for (int32_t i = 0; i < count; i++)
         values[i] = 1e3 * samples[i].cpu;
     out->cpu_ms = bench_median(values, count);
@@ -126,7 +121,6 @@ bool bench_time_runs(const bench_clock *c, bool (*run)(void *data), void *data,
 {
     sample samples[BENCH_RUNS_MAX];
     int32_t count = 0;
-
     if (!take(c, run, data, &samples[0]))
         return false;
     if (samples[0].seconds >= 0.5 * c->seconds) {

@@ -20,7 +20,6 @@ static const char *next_word(const char *flag, const char *at, char word[WORD_SI
                              const char *whole, report *r)
 {
     const size_t length = strcspn(at, ",");
-
     if (length == 0 || length >= WORD_SIZE) {
         report_error(r, "%s: \"%s\" is no list; give words with commas between", flag,
                      whole);
@@ -37,7 +36,6 @@ static int each_word(const char *flag, const arg_texts *texts, void *to,
                      int (*take)(void *to, const char *word), report *r)
 {
     int result = EXIT_DONE;
-
     for (int32_t i = 0; i < texts->count; i++) {
         const char *at = texts->value[i];
         while (at && result == EXIT_DONE) {
@@ -67,7 +65,6 @@ typedef struct named_list {
 static int not_here(const named_list *l, const char *word)
 {
     char names[128];
-
     device_list_isas(names, sizeof names);
     report_error(l->r, "%s %s: not on this machine; there are %s", l->flag, word, names);
     return EXIT_USAGE;
@@ -78,7 +75,6 @@ static int take_name(void *to, const char *word)
     named_list *l = to;
     const bool all = strcmp(word, "all") == 0;
     bool found = all;
-
     for (int32_t i = 0; i < l->count; i++) {
         if (all ? i < l->all_from : strcmp(word, l->names[i]) != 0)
             continue;
@@ -105,7 +101,6 @@ static int take_name(void *to, const char *word)
 static int choose_names(named_list *l, const arg_texts *texts, const char *initial)
 {
     const arg_texts without = {.count = 1, .value = {initial}};
-
     return each_word(l->flag, texts->count > 0 ? texts : &without, l, take_name, l->r);
 }
 
@@ -114,7 +109,6 @@ static int choose_of(const char *flag, const char *const *names, int32_t count,
                      report *r)
 {
     named_list l = {.flag = flag, .count = count, .to = to, .r = r};
-
     memcpy(l.names, names, (size_t)count * sizeof *names);
     return choose_names(&l, texts, initial);
 }
@@ -128,7 +122,6 @@ static int choose_methods(const bench_settings *s, bench_choices *c, report *r)
                     .all_from = 1,
                     .to = &c->methods,
                     .r = r};
-
     for (int32_t i = 0; i < crv_method_count() && l.count < NAMES_MAX; i++)
         l.names[l.count++] = crv_method_at(i)->name;
     return choose_names(&l, &s->methods, "all");
@@ -142,7 +135,6 @@ static int choose_filters(const bench_settings *s, bench_choices *c, report *r)
                     .all_from = 2,
                     .to = &c->filters,
                     .r = r};
-
     for (int32_t i = 0; i < crv_filter_count() && l.count < NAMES_MAX; i++)
         l.names[l.count++] = crv_filter_at(i)->name;
     return choose_names(&l, &s->filters, "none");
@@ -151,7 +143,6 @@ static int choose_filters(const bench_settings *s, bench_choices *c, report *r)
 static int choose_presets(const bench_settings *s, bench_choices *c, report *r)
 {
     const char *names[CRV_PRESET_COUNT];
-
     for (int i = 0; i < CRV_PRESET_COUNT; i++)
         names[i] = crv_preset_name((crv_preset)i);
     return choose_of("--preset", names, CRV_PRESET_COUNT, &s->presets, "medium",
@@ -163,7 +154,6 @@ static int choose_isas(const bench_settings *s, bench_choices *c, report *r)
     named_list l = {
         .flag = "--isa", .missing = ~crv_isa_available(), .to = &c->isas, .r = r};
     char initial[WORD_SIZE] = "scalar";
-
     for (; crv_isa_name((crv_isa)l.count); l.count++) {
         l.names[l.count] = crv_isa_name((crv_isa)l.count);
         if (l.count > 0 && !(l.missing >> l.count & 1) && device_is_cpu(&s->common))
@@ -189,7 +179,6 @@ static int take_threads(void *to, const char *word)
     const number_list *l = to;
     bench_list *threads = &l->c->threads;
     double value;
-
     if (!args_number(word, &value) || !(value >= 1.0 && value <= 1024.0)
         || value > floor(value))
         return wrong_number(l, word, "whole numbers from 1 to 1024");
@@ -204,7 +193,6 @@ static int take_size(void *to, const char *word)
     static const arg row = {.name = "--size", .type = ARG_SIZE};
     const number_list *l = to;
     arg_size size;
-
     if (!args_set_value(&row, word, &size) || size.width < 16 || size.height < 16)
         return wrong_number(l, word, "WIDTHxHEIGHT, each 16 to 32768 px");
     if (l->c->size_count == BENCH_LIST_MAX)
@@ -217,7 +205,6 @@ static int take_factor(void *to, const char *word)
 {
     const number_list *l = to;
     double value;
-
     if (!args_number(word, &value) || !(value >= 0.001 && value <= 1000.0))
         return wrong_number(l, word, "factors from 0.001 to 1000");
     if (l->c->factor_count == BENCH_LIST_MAX)
@@ -256,7 +243,6 @@ static int check_device(const bench_settings *s, report *r)
 {
     const bool cpu = device_is_cpu(&s->common);
     const char *flag = NULL;
-
     if (cpu && s->depth_layouts.count > 0)
         flag = "--depth-layout";
     else if (cpu && s->arithmetic.count > 0)
@@ -276,7 +262,6 @@ static int check_device(const bench_settings *s, report *r)
 int bench_choose(const bench_settings *s, bench_choices *out, report *r)
 {
     int result = check_device(s, r);
-
     *out = (bench_choices){0};
     if (result == EXIT_DONE)
         result = choose_methods(s, out, r);

@@ -12,7 +12,6 @@ static void find_processor(char *out, size_t size)
 {
     FILE *file = fopen("/proc/cpuinfo", "r");
     char line[512];
-
     snprintf(out, size, "unknown processor");
     while (file && fgets(line, sizeof line, file)) {
         char *colon = strchr(line, ':');
@@ -39,7 +38,6 @@ static int32_t all_threads(void)
 machine machine_look(int32_t threads)
 {
     machine m;
-
     find_processor(m.processor, sizeof m.processor);
 #if defined(__clang_version__)
     snprintf(m.compiler, sizeof m.compiler, "clang %s", __clang_version__);

@@ -18,7 +18,6 @@ static void *count_allocate(void *user, size_t size, size_t alignment)
     memory *m = user;
     const size_t whole = (size + alignment - 1) / alignment * alignment;
     void *bytes = whole < size ? NULL : aligned_alloc(alignment, whole);
-
     m->calls++;
     if (bytes)
         m->bytes += (double)size;
@@ -28,7 +27,6 @@ static void *count_allocate(void *user, size_t size, size_t alignment)
 static void count_release(void *user, void *bytes, size_t size)
 {
     memory *m = user;
-
     m->bytes -= (double)size;
     free(bytes);
 }
@@ -39,7 +37,6 @@ static int open_context(const bench_settings *s, const bench_case *c, memory *m,
     const crv_logger log = report_errors_only(r);
     const crv_allocator allocator = {count_allocate, count_release, m};
     common_settings common = s->common;
-
     common.threads = (arg_int){true, c->threads};
     common.depth_layout = c->layout;
     common.half_filters = c->arithmetic == 1;
@@ -76,7 +73,6 @@ static bool read_steps(running *w)
 static bool run_once(void *data)
 {
     running *w = data;
-
     const crv_const_image estimate = crv_image_const(w->image);
     if (w->of->filter_only)
         return crv_plan_filter(w->plan, w->gbuffer, &estimate, &w->image) == CRV_OK;
@@ -88,7 +84,6 @@ static void take_steps(running *w, bench_outcome *out)
 {
     const int32_t timed = w->runs > 1 ? w->runs - 1 : w->runs;
     const int32_t count = timed < STEP_RUNS_MAX ? timed : STEP_RUNS_MAX;
-
     out->step_count = w->step_count;
     for (int32_t i = 0; i < w->step_count; i++) {
         out->steps[i].name = w->steps[i].name;
@@ -100,7 +95,6 @@ static int run_case(const bench_clock *clock, crv_context *context, const memory
                     running *w, report *r, bench_outcome *out)
 {
     const bench_case *c = w->of;
-
     if (!report_ok(r, bench_upload(c->scene, context, &w->gbuffer), "G-buffer")
         || !report_ok(r, crv_plan_create(context, &c->options, &c->scene->desc, &w->plan),
                       "plan"))
@@ -125,7 +119,6 @@ int bench_measure(const bench_settings *s, const bench_clock *clock, const bench
     running *w = calloc(1, sizeof *w);
     crv_context *context = NULL;
     memory m = {0};
-
     *out = (bench_outcome){0};
     int result = pixels && w ? EXIT_DONE : report_no_memory(r);
     if (result == EXIT_DONE)

@@ -11,7 +11,6 @@ static void add_options(cJSON *row, const bench_case *c)
 {
     const crv_options *o = &c->options;
     cJSON *options = cJSON_AddObjectToObject(row, "options");
-
     for (int32_t i = 0; i < crv_option_count(); i++) {
         const crv_option *option = crv_option_at(i);
         if (crv_option_applies(option, c->filter_only ? NULL : o->method, o->filter))
@@ -24,7 +23,6 @@ static void add_device(cJSON *row, const bench_settings *s, const bench_case *c)
     const bool cpu = device_is_cpu(&s->common);
     /* The scalar code has no other structure. */
     const int32_t structure = c->isa == (int32_t)CRV_ISA_SCALAR ? 1 : c->structure;
-
     json_add_text(row, "device", cpu ? "cpu" : s->common.device);
     json_add_text(row, "isa", cpu ? crv_isa_name((crv_isa)c->isa) : NULL);
     json_add_text(row, "structure", cpu ? bench_structures[structure] : NULL);
@@ -49,7 +47,6 @@ static void add_times(cJSON *row, const bench_time *t, double pixels)
 static void add_steps(cJSON *row, const bench_outcome *o)
 {
     cJSON *steps = o->step_count > 0 ? cJSON_AddArrayToObject(row, "steps") : NULL;
-
     for (int32_t i = 0; i < o->step_count; i++) {
         cJSON *step = cJSON_CreateObject();
         json_add_text(step, "name", o->steps[i].name);
@@ -63,7 +60,6 @@ cJSON *bench_row(const bench_settings *s, const bench_case *c, const bench_outco
     const double pixels = (double)c->scene->width * (double)c->scene->height;
     const crv_filter *filter = c->options.filter;
     cJSON *row = cJSON_CreateObject();
-
     json_add_text(row, "scene", c->scene->name);
     json_add_number(row, "width", c->scene->width);
     json_add_number(row, "height", c->scene->height);

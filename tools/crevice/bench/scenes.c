@@ -16,14 +16,12 @@ static const double degree = 3.14159265358979323846 / 180.0;
 bool bench_is_frame(const char *input)
 {
     const size_t length = strlen(input);
-
     return length > 4 && strcmp(input + length - 4, ".exr") == 0;
 }
 
 int bench_load_model(const char *input, scene **out, report *r)
 {
     const view_settings settings = {.model = input, .size = {true, 16, 16}};
-
     return view_load(&settings, out, r);
 }
 
@@ -34,7 +32,6 @@ static int render(const scene *model, const arg_size *size, report *r, bench_sce
                                      .height = size->height,
                                      .layers = 1,
                                      .normals = SCENE_NORMALS_INTERPOLATED};
-
     scene_frame(model, (float)(VFOV_DEG * degree),
                 (float)size->width / (float)size->height, &request.view);
     out->radius = scene_suggest_radius(model, &request.view);
@@ -50,7 +47,6 @@ static int suggest_radius(const char *input, bench_scene *b, report *r)
     const crv_logger log = report_errors_only(r);
     estimator e = {.desc = b->file.desc};
     crv_context_desc desc;
-
     crv_context_desc_init(&desc, sizeof desc);
     desc.logger = log;
     int result = EXIT_FAILED;
@@ -70,7 +66,6 @@ static int load(const bench_settings *s, const char *input, report *r, bench_sce
     const crv_logger log = report_errors_only(r);
     const io_passes_request request = {.depth_format = crv_depth_format_planar(),
                                        .vfov_rad = (float)(s->vfov_deg.value * degree)};
-
     if (io_frame_load(input, &request, &out->file, &log) != 0)
         return EXIT_FAILED;
     out->desc = out->file.desc;
@@ -91,7 +86,6 @@ int bench_scene_make(const bench_settings *s, const char *input, const scene *mo
 int bench_check_input(const bench_settings *s, const char *input, report *r)
 {
     const view_settings settings = {.model = input, .size = {true, 16, 16}};
-
     if (bench_is_frame(input)) {
         bench_scene frame;
         const int result = bench_scene_make(s, input, NULL, NULL, r, &frame);
