@@ -12,7 +12,7 @@
 enum { WORD_SIZE = 64, NAMES_MAX = 64 };
 
 const char *const bench_structures[2] = {"deinterleaved", "exact"};
-const char *const bench_layouts[3] = {"plain", "deinterleaved", "levels"};
+const char *const bench_layouts[3] = {"linear", "deinterleaved", "levels"};
 const char *const bench_arithmetic[2] = {"single", "half"};
 
 /* The next word of a list with commas, and the place after it; NULL at its end. */
