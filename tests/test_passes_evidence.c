@@ -490,8 +490,19 @@ static void test_encodings(void **state)
         assert_true(support_lines.warnings >= 1);
         if (!strstr(support_lines.text, cases[k].word))
             fail_msg("no \"%s\" in: %s", cases[k].word, support_lines.text);
-        if (k == 0) /* needs no number that is not in the file: taken */
+        if (k == 0) { /* needs no number that is not in the file: taken */
             expect_truth(&frame);
+            assert_int_equal(frame.encoding, CRV_DEPTH_RADIAL);
+            io_frame_free(&frame);
+            /* So are the later frames of the shot, without another word. */
+            io_passes_request later = request;
+            later.is_later = true;
+            later.depth_format.encoding = CRV_DEPTH_RADIAL;
+            support_forget();
+            load(path, &later, &frame);
+            expect_truth(&frame);
+            assert_int_equal(support_lines.warnings, 0);
+        }
         io_frame_free(&frame);
         /* Said outright it is right, and silent. */
         support_forget();

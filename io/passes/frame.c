@@ -171,7 +171,8 @@ static void negate_depth(const char *path, io_frame *frame, const crv_logger *lo
 }
 
 /* Steps of half floats darken flat surfaces far away. */
-static void smooth_halves(const char *path, const io_frame *frame, const crv_logger *log)
+static void smooth_halves(const char *path, const io_passes_request *request,
+                          const io_frame *frame, const crv_logger *log)
 {
     for (int32_t i = 0; i < frame->desc.layers; i++)
         if (io__smooth_halves(&frame->depth[i])) {
@@ -181,6 +182,8 @@ static void smooth_halves(const char *path, const io_frame *frame, const crv_log
                 "their steps out; write it in 32-bit floats");
             return;
         }
+    if (request->is_later)
+        return;
     io__warn(
         log, path,
         "depth holds nothing but half floats: their steps are smoothed, detail below "
@@ -195,8 +198,9 @@ static void tell_of_unit_range(const char *path, const io_passes_request *reques
     const bool ends_at_1 = facts->largest == 1.0f && facts->at_largest < facts->count;
     const bool begins_at_0 =
         facts->smallest == 0.0f && facts->largest < 1.0f && !has_normals;
-    if (request->encoding_given || !is_distance(request->depth_format.encoding)
-        || facts->smallest < -1.0f || !(ends_at_1 || begins_at_0))
+    if (request->encoding_given || request->is_later
+        || !is_distance(request->depth_format.encoding) || facts->smallest < -1.0f
+        || !(ends_at_1 || begins_at_0))
         return;
     io__warn(log, path,
              "depth lies between %g and %g: it looks normalised, or like a depth buffer, "
@@ -228,7 +232,7 @@ static crv_depth_format settle_format(const char *path, const io_passes_request 
     }
     tell_of_unit_range(path, request, &facts, has_normals, log);
     if (facts.is_half && is_distance(format.encoding))
-        smooth_halves(path, frame, log);
+        smooth_halves(path, request, frame, log);
     if (find_background && io__largest_is_sky(&facts)) {
         format.background = facts.largest;
         io__info(log, path, "depth from %g on is background: %zu pixels hold just that",
@@ -268,6 +272,7 @@ static int settle(const char *path, const io_passes_request *request,
                   log))
         return -1;
     frame->camera = verdict.camera.camera;
+    frame->encoding = verdict.format.encoding;
     if (verdict.camera.has_rotation && io__is_rotation(verdict.camera.to_view))
         for (int i = 0; i < 9; i++)
             frame->camera.world_to_view[i] = (float)verdict.camera.to_view[i];

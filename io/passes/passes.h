@@ -61,6 +61,8 @@ typedef struct io_frame {
     crv_camera camera;
     bool has_normals;
     crv_normal_space normal_space;
+    /* How depth was read, for io_passes_request.depth_format of a shot's later frames. */
+    crv_depth_encoding encoding;
     /* Which way the normals were read, for io_passes_request.usual_reading; 0: none. And
      * whether this frame alone decides it. */
     int reading;

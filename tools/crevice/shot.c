@@ -250,7 +250,10 @@ static int load_as_shot(shot *t, const char *path, io_frame *frame, report *r)
             result = load(t, path, frame, r);
         }
     }
-    t->request.is_later = true;
+    if (result == EXIT_DONE) {
+        t->request.is_later = true;
+        t->request.depth_format.encoding = frame->encoding;
+    }
     return result;
 }
 
