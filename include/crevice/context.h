@@ -50,9 +50,9 @@ typedef struct crv_context_desc {
     uint32_t isa_mask; /* bits 1u << crv_isa that may be used; the fastest of them that
                           is available is, and CRV_ISA_SCALAR where none is. 0 (default):
                           all */
-    /* CPU only. 0 (default): hbao, alchemy and vo use deinterleaved kernels: up to 4
-     * times as fast; samples move by a part of a pixel's footprint, and errors are the
-     * same within 1 %. 1: samples are exactly where the scalar code has them. */
+    /* CPU only. 0 (default): hbao, gtao, bitmask, alchemy and vo use deinterleaved
+     * kernels: up to 4 times as fast; samples move by a part of a pixel's footprint, to
+     * the same error. 1: samples are exactly where the scalar code has them. */
     int32_t exact;
     crv_device device;    /* default CRV_DEVICE_CPU */
     int32_t device_index; /* Vulkan: as crv_vulkan_device_info() counts; default 0 */

@@ -29,14 +29,17 @@ typedef struct surroundings {
 
 static void copy_depth(surroundings *s, const crv__plane *plane, crv__tile tile)
 {
+    const int32_t left = tile.x0 - FIRST, right = left + PITCH;
+    const int32_t x0 = left > 0 ? left : 0,
+                  x1 = right < plane->width ? right : plane->width;
     for (int32_t r = 0; r < ROWS; r++) {
         const int32_t y = tile.y0 - TOP + r;
-        const bool holds = y >= 0 && y < plane->height;
-        const float *row = crv__plane_at(plane, 0, holds ? y : 0);
-        for (int32_t c = 0; c < PITCH; c++) {
-            const int32_t x = tile.x0 - FIRST + c;
-            s->depth[r][c] = holds && x >= 0 && x < plane->width ? row[x] : 0;
-        }
+        float *row = s->depth[r];
+        if (y < 0 || y >= plane->height || x1 - x0 < PITCH)
+            __builtin_memset(row, 0, sizeof s->depth[0]);
+        if (y >= 0 && y < plane->height)
+            __builtin_memcpy(row + (x0 - left), crv__plane_at(plane, x0, y),
+                             (size_t)(x1 - x0) * sizeof(float));
     }
 }
 
