@@ -51,8 +51,8 @@ def parser() -> argparse.ArgumentParser:
                "  study/run -o out/study --quick\n"
                "  study/run hall.glb engine.glb -o out/study --size 1280x720")
     made.add_argument("models", nargs="*", metavar="MODEL",
-                      help="mesh files or builtin:NAME, each framed by itself; without any, three "
-                           "views of builtin:courtyard")
+                      help="mesh files or builtin:NAME, each framed by itself; without any, "
+                           "views of scenes made in code")
     made.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder for the page")
     made.add_argument("--views", action="append", default=[], metavar="FILE.json",
                       help="a list of views of models")

@@ -20,6 +20,8 @@ COURTYARD = [
     {"name": "courtyard-grass", "file": "builtin:courtyard", "eye": [-1.75, 0.85, 3.35],
      "target": [-3.7, 0.18, 0.3], "vfov_degrees": 40},
 ]
+# Thin things, whose backs a depth buffer does not hold.
+THIN = [{"name": name, "file": f"builtin:{name}"} for name in ("blades", "leaves", "bars")]
 
 CAMERA = re.compile(r"--eye (\S+) --target (\S+) --up (\S+) (--vfov|--ortho) (\S+)")
 RADIUS = re.compile(r"--radius (\S+), chosen")
@@ -164,14 +166,14 @@ def framed(tool: Tool, entry: dict[str, Any], width: int, height: int) -> View:
 
 def collect(tool: Tool, models: list[str], lists: list[str], width: int, height: int
             ) -> list[View]:
-    """Views of models and of lists; without any, three of the built-in courtyard."""
+    """Views of models and of lists; without any, those of scenes made in code."""
     entries: list[dict[str, Any]] = []
     for model in models:
         name = unique_name(model, {e["name"] for e in entries})
         entries.append({"name": name, "file": model})
     for path in lists:
         entries += read_list(path)
-    entries = entries or COURTYARD
+    entries = entries or COURTYARD + THIN
     names = [e["name"] for e in entries]
     for name in names:
         if names.count(name) > 1:

@@ -45,11 +45,21 @@ class Form:
     def name(self) -> str:
         return f"{self.method}, {self.integral}"
 
+    @property
+    def weighting(self) -> str:
+        """Of the hemisphere, for the methods that have both."""
+        return self.integral.split(",")[0]
+
 
 NONE, LINEAR = closed_forms.cosine_none, closed_forms.cosine_linear
 FORMS = [Form("hbao", "none", "uniform, none", closed_forms.uniform_none),
          Form("hbao", "linear", "uniform, linear", closed_forms.uniform_linear),
-         Form("hsao", "none", "cosine, none", NONE), Form("hsao", "linear", "cosine, linear", LINEAR),
+         Form("gtao", "none", "cosine, none", NONE),
+         Form("gtao", "linear", "cosine, linear", LINEAR),
+         Form("gtao", "none", "uniform, none", closed_forms.uniform_none),
+         Form("gtao", "linear", "uniform, linear", closed_forms.uniform_linear),
+         Form("hsao", "none", "cosine, none", NONE),
+         Form("hsao", "linear", "cosine, linear", LINEAR),
          Form("raymarch", "none", "cosine, none", NONE),
          Form("raymarch", "linear", "cosine, linear", LINEAR),
          Form("containment", "none", "cosine, none", NONE),
@@ -153,8 +163,8 @@ def run_groove(s: Study, groove: Groove, options: Options, seed: int) -> np.ndar
 def options_of(s: Study, form: Form, **effort: Any) -> Options:
     """Behind the wall all is solid; each pixel has its own rotation and jitter."""
     intensity = {"intensity": ALCHEMY_STRENGTH} if form.occlusion is None else {}
-    return s.options(form.method, filter="none", noise_size=64, falloff=form.falloff, bias_deg=0,
-                     thickness=0, **intensity, **effort)
+    return s.options(form.method, filter="none", noise_size=64, falloff=form.falloff,
+                     weighting=form.weighting, bias_deg=0, thickness=0, **intensity, **effort)
 
 
 def exact_of(groove: Groove, form: Form, options: Options) -> np.ndarray:

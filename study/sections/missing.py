@@ -17,6 +17,7 @@ TWO_LAYERS = Buffers(2, "surfaces")
 # What is measured, and with what its method is taken to have converged: more of what its
 # error hangs on, without a filter.
 SUBJECTS: dict[str, tuple[str, dict[str, int]]] = {
+    "gtao": ("none", {"directions": 24, "steps": 48}),
     "hsao": ("none", {"directions": 16, "steps": 32, "normal_rays": 2}),
     "raymarch": ("none", {"directions": 16, "steps": 32, "normal_rays": 3}),
     "containment": ("none", {"samples": 96, "steps": 24}),
@@ -46,7 +47,7 @@ def steps(s: Study) -> list[Step]:
     figures: list[dict[str, Any]] = []
     found = [Step(f"missing data: {v.name}, {m}", 8 if v == s.main else 2,
                   lambda v=v, m=m: measure(s, v, m, rows, figures))
-             for v in s.views for m in SUBJECTS]
+             for v in s.views for m in SUBJECTS if m in s.registry.methods]
     return found + [Step("missing data: tables", 0, lambda: write(s, rows, figures))]
 
 
@@ -88,8 +89,8 @@ def take_apart(s: Study, row: Row, converged: dict[str, int]) -> dict[str, float
 def write(s: Study, rows: list[Row], figures: list[dict[str, Any]]) -> None:
     page = s.page
     page.heading(2, "missing", "What the errors are made of")
-    page.text("`hsao`, `raymarch` and `containment` without falloff (cosine weighting) and `hbao` "
-              "with linear falloff (uniform weighting), each at `high` with the default filter, "
+    page.text("`gtao`, `hsao`, `raymarch` and `containment` without falloff (cosine weighting) and "
+              "`hbao` with linear falloff (uniform weighting), each at `high` with the default filter, "
               "against ray tracing of the whole scene. Two layers: the next surface behind the "
               "first as well (`--layers 2`). No guard band: nothing beyond the picture's border "
               "occludes (`--guard-px 0`).")
