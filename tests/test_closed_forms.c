@@ -126,6 +126,7 @@ static groove make_groove(double c)
 typedef struct effort {
     int32_t directions, steps, normal_rays, samples, seed;
     float thickness; /* 0: the groove is solid without end */
+    crv_thickness thickness_rule;
 } effort;
 
 /* Accessibility of the groove's point, radius 1, unfiltered; everything but its pixel is
@@ -157,6 +158,7 @@ static double estimate(const groove *g, const closed_form *form, effort e)
     options.samples = e.samples;
     options.seed = e.seed;
     options.thickness = e.thickness;
+    options.thickness_rule = e.thickness_rule;
     return of_groove(g, options);
 }
 
@@ -164,7 +166,7 @@ static void converged_methods_meet_the_groove(void **state)
 {
     (void)state;
     static const double C[] = {0.1, 0.25, 0.5, 0.75, 1};
-    static const effort MUCH = {128, 128, 16, 4096, 0, 0.5f};
+    static const effort MUCH = {128, 128, 16, 4096, 0, 0.5f, CRV_THICKNESS_WIDTH};
     for (int k = 0; k < 5; k++) {
         groove g = make_groove(C[k]);
         for (int i = 0; i < FORM_COUNT; i++) {
@@ -235,16 +237,17 @@ static void refine(const groove grooves[4], const closed_form *form, const refin
 static void error_falls_with_samples(void **state)
 {
     (void)state;
+    /* bitmask without its widths, which take long for whole buffers. */
     static const refinement REFINEMENTS[] = {
         /* Equally spaced directions of a smooth integrand converge faster than 1/Nd, down
          * to the floor that steps and texels set. */
-        {"directions", {4, 256, 8, 1, 0, 0}, 2, 4},
+        {"directions", {4, 256, 8, 1, 0, 0, CRV_THICKNESS_RUN}, 2, 4},
         /* Jittered steps err by O(1/Ns), a sixteenth; a horizon is found late where
          * the wall is nearer than one coarse step, so less is asked. */
-        {"steps", {128, 4, 8, 1, 0, 0}, 2, 5},
+        {"steps", {128, 4, 8, 1, 0, 0, CRV_THICKNESS_RUN}, 2, 5},
         /* Poisson-disk and low-discrepancy points do better than the 1/sqrt(n) of random
          * ones, which is a sixteenth. */
-        {"samples", {1, 1, 1, 4, 0, 0}, 4, 16},
+        {"samples", {1, 1, 1, 4, 0, 0, CRV_THICKNESS_RUN}, 4, 16},
     };
     groove grooves[4] = {make_groove(0.1), make_groove(0.25), make_groove(0.5),
                          make_groove(0.75)};
