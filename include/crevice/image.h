@@ -12,8 +12,8 @@
  * Strides are in bytes, multiples of 4, and may be negative (a bottom-up image points
  * data at its last row). data is aligned to 4 bytes.
  *
- * Calls that compute take floats. Pixels of other types, such as half floats, doubles or
- * integers, are converted first: crv_image_convert().
+ * Calls that compute take floats. Convert pixels of other types (half floats, doubles,
+ * integers) with crv_image_convert() first.
  *
  * Everything here is thread-safe.
  */
@@ -29,7 +29,7 @@ extern "C" {
 /* The largest width and height that Crevice takes. */
 #define CRV_MAX_SIZE 32768
 
-/* An image that a call writes. Components must not overlap. */
+/* An image that a call writes. Components must not overlap in memory. */
 typedef struct crv_image {
     float *data;
     int32_t width;    /* px, 1 to CRV_MAX_SIZE */
@@ -57,7 +57,7 @@ CRV_API crv_image crv_image_packed(float *data, int32_t width, int32_t height,
 CRV_API crv_const_image crv_const_image_packed(const float *data, int32_t width,
                                                int32_t height, int32_t channels);
 
-/* The same pixels, only to be read. */
+/* A read-only view of the same pixels. */
 static inline crv_const_image crv_image_const(crv_image image)
 {
     crv_const_image view;
@@ -106,16 +106,18 @@ typedef struct crv_texels {
     crv_texel type;
     int32_t width, height, channels; /* as in crv_image */
     ptrdiff_t row_stride, pixel_stride, channel_stride;
-    double scale;  /* default 1; 1 / 65535.0 for a 16-bit depth buffer, 2 / 255.0 ... */
-    double offset; /* default 0; ... and -1 for normals in 8 bits */
+    /* Defaults 1 and 0. Depth buffer of 16 bits: 1 / 65535.0 and 0. Normals of 8 bits:
+     * 2 / 255.0 and -1. */
+    double scale, offset;
 } crv_texels;
 
-/* A view of tightly packed memory: rows without padding, components interleaved. */
+/* A view of tightly packed memory: rows without padding, components interleaved. scale 1,
+ * offset 0. Checks nothing. */
 CRV_API crv_texels crv_texels_packed(const void *data, crv_texel type, int32_t width,
                                      int32_t height, int32_t channels);
 
-/* Writes the pixels as floats to an image of the same size and channels, which must not
- * share their memory. logger: gets the reason for a failure; NULL: nobody. Errors:
+/* Writes the pixels as floats to an image of the same size and channels. The two must not
+ * share memory. logger: gets the reason for a failure; NULL: nobody. Errors:
  * INVALID_ARGUMENT. */
 CRV_API crv_status crv_image_convert(const crv_texels *from, const crv_image *to,
                                      const crv_logger *logger);

@@ -16,12 +16,12 @@
  *
  * To run plans on a device that Crevice creates itself, set crv_context_desc.device
  * (context.h): that needs no Vulkan headers. Plans (crv_plan_run()) work on contexts made
- * here as well; they submit to the queue and wait.
+ * here as well: they submit to the queue and wait.
  *
  * The device must have been created for Vulkan 1.3 or newer with the features
  * synchronization2 and shaderStorageImageWriteWithoutFormat. Its queue family must have
  * compute. libcrevice does not link the Vulkan loader. If it was built without Vulkan
- * (CREVICE_VULKAN=OFF) it has none of these functions.
+ * (CREVICE_VULKAN=OFF), it has none of these functions.
  */
 #ifndef CREVICE_VULKAN_H
 #define CREVICE_VULKAN_H
@@ -60,13 +60,14 @@ typedef struct crv_vulkan_host {
     size_t struct_size; /* set by crv_vulkan_host_init() */
     /* NULL: the installed loader's. */
     PFN_vkGetInstanceProcAddr get_instance_proc_addr;
-    VkInstance instance; /* made for Vulkan 1.3 or newer */
+    VkInstance instance; /* created for Vulkan 1.3 or newer */
     VkPhysicalDevice physical_device;
     VkDevice device;
-    /* Of the command buffers that passes are recorded into. It must have compute. */
+    /* The family of the command buffers that passes are recorded into. It must have
+     * compute. */
     uint32_t queue_family;
-    /* Only plans need it: they submit to it on the thread that runs them. No other thread
-     * may use the queue at that time. */
+    /* Only plans need a queue: they submit to it on the thread that runs them. No other
+     * thread may use the queue at that time. */
     VkQueue queue;
     /* Whether the device was created with these features: a VkDevice cannot be asked. */
     VkBool32 has_synchronization2, has_storage_image_write_without_format;
@@ -137,11 +138,11 @@ typedef enum crv_vulkan_half {
     CRV_VULKAN_HALF_ON = 2
 } crv_vulkan_half;
 
-/* How depth lies in memory while it is sampled. docs/gpu.md says when which one pays. */
+/* How depth lies in memory while it is sampled. docs/gpu.md compares the layouts. */
 typedef enum crv_vulkan_depth_layout {
     CRV_VULKAN_DEPTH_LINEAR = 0, /* an image */
-    /* Deinterleaved by noise-tile phase; same result. 4 bytes a pixel and layer more. For
-     * noise tiles of 2 to 8 px; linear for others. */
+    /* Deinterleaved by noise-tile phase; same result. Takes 4 more bytes for each pixel
+     * and layer. For noise tiles of 2 to 8 px; linear for others. */
     CRV_VULKAN_DEPTH_DEINTERLEAVED = 1,
     /* hbao and alchemy read coarser levels for distant samples: less memory traffic for
      * large radii. Different samples, same expected error. Other methods: linear. */
@@ -149,8 +150,9 @@ typedef enum crv_vulkan_depth_layout {
 } crv_vulkan_depth_layout;
 
 /*
- * How the context's plans (crv_plan_create()) work from now on; passes have the same in
- * their desc. Default: LINEAR, HALF_OFF. LEVELS begin at 16 px. Errors: INVALID_ARGUMENT;
+ * Depth layout and half floats of the plans that are created from now on
+ * (crv_plan_create()). Passes have both in their desc. Defaults: LINEAR, HALF_OFF. LEVELS
+ * begin at 16 px. Errors: INVALID_ARGUMENT;
  * UNSUPPORTED if the context has no Vulkan device.
  */
 CRV_API crv_status crv_vulkan_context_set_plans(crv_context *context,
@@ -162,8 +164,8 @@ CRV_API crv_status crv_vulkan_context_set_plans(crv_context *context,
 /* What a pass is created for. Fill it with crv_vulkan_pass_desc_init(). */
 typedef struct crv_vulkan_pass_desc {
     size_t struct_size; /* set by crv_vulkan_pass_desc_init() */
-    /* Recordings in flight: frames in flight times views in each. Every one takes a few
-     * kilobytes; the images between the steps are shared. 1 to CRV_VULKAN_MAX_FRAMES,
+    /* Recordings in flight: frames in flight times views in each. Each takes a few
+     * kilobytes; all share the images between the steps. 1 to CRV_VULKAN_MAX_FRAMES,
      * default 2. */
     int32_t frames;
     /* Each is one of the formats above. */
@@ -189,9 +191,9 @@ CRV_API crv_status crv_vulkan_pass_desc_init(crv_vulkan_pass_desc *desc,
 typedef struct crv_vulkan_pass crv_vulkan_pass;
 
 /*
- * The G-buffer's desc gives the largest size, the layers and the guard band. All three
- * descriptions are copied. *out must be destroyed before its context. Pass and context
- * together serve one thread at a time.
+ * Makes a pass in *out. The G-buffer's desc gives the largest size, the layers and the
+ * guard band. options and both descs are copied. The caller destroys the pass, before its
+ * context. A context and all its passes together serve one thread at a time.
  * Errors: INVALID_ARGUMENT, also if the format of normals cannot hold their encoding;
  * UNSUPPORTED if a format is not listed above, the device lacks it or cannot compute
  * this, or the context has no Vulkan device; DEVICE if its driver fails; OUT_OF_MEMORY.
@@ -202,32 +204,32 @@ CRV_API crv_status crv_vulkan_pass_create(crv_context *context,
                                           const crv_vulkan_pass_desc *desc,
                                           crv_vulkan_pass **out);
 
-/* No recording of the pass may still be pending. NULL does nothing. */
+/* Destroys a pass. None of its recordings may be pending. NULL does nothing. */
 CRV_API void crv_vulkan_pass_destroy(crv_vulkan_pass *pass);
 
 /*
- * New option values for all later recordings. Free, and without memory: call it each
- * frame. Fixed when the pass was created are method, filter, falloff, directions, steps,
- * spacing, normal_rays, samples, attenuation, noise_size and filter_slope, whether
- * bias_deg is 0, and whether filter_normal allows half floats.
- * Errors: INVALID_ARGUMENT; UNSUPPORTED with a line that names the option if it is fixed.
- * Nothing is changed then.
+ * New option values for all later recordings. Costs nothing and takes no memory, so it
+ * may be called each frame. These are fixed when the pass is created: method, filter,
+ * falloff, directions, steps, spacing, normal_rays, samples, attenuation, noise_size and
+ * filter_slope, whether bias_deg is 0, and whether filter_normal allows half floats.
+ * Errors, with nothing changed: INVALID_ARGUMENT; UNSUPPORTED, with a line that names the
+ * option, if it is fixed.
  */
 CRV_API crv_status crv_vulkan_pass_set_options(crv_vulkan_pass *pass,
                                                const crv_options *options);
 
 /* An image that is read. */
 typedef struct crv_vulkan_input {
-    /* VK_IMAGE_VIEW_TYPE_2D, of one aspect, level and layer; of an array image the layer
-     * that holds this view. At least as large as the frame, input_x and input_y added.
+    /* VK_IMAGE_VIEW_TYPE_2D, of one aspect, level and layer; of a multiview array image
+     * the layer of this eye. At least input_x + width by input_y + height of the frame.
      * The image has SAMPLED usage. */
     VkImageView view;
     /*
      * The layout that the image is in, and stays in: SHADER_READ_ONLY_OPTIMAL (default),
      * GENERAL or READ_ONLY_OPTIMAL; of depth formats also
      * DEPTH_STENCIL_READ_ONLY_OPTIMAL, DEPTH_READ_ONLY_OPTIMAL or
-     * DEPTH_READ_ONLY_STENCIL_ATTACHMENT_OPTIMAL. Others are refused. Whether the image
-     * really is in that layout cannot be asked: develop with the validation layer.
+     * DEPTH_READ_ONLY_STENCIL_ATTACHMENT_OPTIMAL. Others are refused. Crevice cannot
+     * check that the image is in that layout: develop with the validation layer.
      */
     VkImageLayout layout;
 } crv_vulkan_input;
@@ -236,12 +238,14 @@ typedef struct crv_vulkan_input {
 typedef struct crv_vulkan_frame {
     size_t struct_size; /* set by crv_vulkan_frame_init() */
     int32_t index;      /* which of the recordings in flight: 0 to desc.frames - 1 */
-    /* Size of this frame, guard band included, at most the pass's: for dynamic
-     * resolution. 0 (default): the pass's. */
+    /* Size of this frame, px, guard band included, at most the size of the pass: for
+     * dynamic resolution. 0 (default): the size of the pass. */
     int32_t width, height;
-    /* Of this frame's size; world_to_view turns world-space normals. */
+    /* The camera of an image of this frame's size. world_to_view is read for world-space
+     * normals. */
     crv_camera camera;
-    /* Tile of a larger picture: added to the origin of the G-buffer's desc, px. */
+    /* For tiles of a larger picture: added to the origin of the G-buffer's desc, px.
+     * Default 0, 0. */
     int32_t origin_x, origin_y;
     /* Different noise for each frame, same expected error: count up if temporal
      * antialiasing accumulates frames. 0 (default): the pattern that plans have. */
@@ -249,30 +253,33 @@ typedef struct crv_vulkan_frame {
     crv_depth_format depth_encoding;        /* default planar */
     crv_vulkan_input depth[CRV_MAX_LAYERS]; /* as many as the G-buffer has layers */
     crv_vulkan_input normals;               /* not read if desc.normals is NONE */
-    int32_t input_x, input_y; /* texel of depth and normals where the frame begins */
+    /* Texel of depth and normals at which the frame begins. Default 0, 0. */
+    int32_t input_x, input_y;
 
-    /* Its size is that inside the guard band, result_x and result_y added, or more. None
-     * of it is checked: neither image nor view can be asked. */
+    /* At least result_x, result_y plus the frame's size inside the guard band. Not
+     * checked: Vulkan does not tell the size of an image or view. */
     VkImage result;
     VkImageView result_view; /* VK_IMAGE_VIEW_TYPE_2D, of one level and layer; STORAGE */
-    uint32_t result_level, result_layer; /* of the image, that the view shows */
-    int32_t result_x, result_y;          /* texel of the view where the result begins */
-    /* The layout that the result is in. UNDEFINED (default): its contents are discarded,
-     * also outside the rectangle that is written. */
+    /* Level and layer of the image that the view shows. Default 0, 0. */
+    uint32_t result_level, result_layer;
+    /* Texel of the view at which the result begins. Default 0, 0. */
+    int32_t result_x, result_y;
+    /* The layout in which the result is before. UNDEFINED (default): its contents are
+     * discarded, also outside the rectangle that is written. */
     VkImageLayout result_layout_before;
-    /* Who used the result last; default ALL_COMMANDS and MEMORY_WRITE. */
+    /* The last use of the result. Default: ALL_COMMANDS and MEMORY_WRITE. */
     VkPipelineStageFlags2 result_stages_before;
     VkAccessFlags2 result_access_before;
     /* The layout that the result gets. Default SHADER_READ_ONLY_OPTIMAL. UNDEFINED,
      * PREINITIALIZED and layouts of depth are refused. */
     VkImageLayout result_layout;
-    /* Who reads the result next. Default: sampled in fragment and compute shaders. */
+    /* The next use of the result. Default: sampled in fragment and compute shaders. */
     VkPipelineStageFlags2 result_stages;
     VkAccessFlags2 result_access;
 } crv_vulkan_frame;
 
-/* Sets the defaults. Set camera, views and images then. Pass sizeof *frame as struct_size
- * (base.h). Errors: INVALID_ARGUMENT. Thread-safe. */
+/* Sets the defaults. Camera, views and images are left to set. Pass sizeof *frame as
+ * struct_size (base.h). Errors: INVALID_ARGUMENT. Thread-safe. */
 CRV_API crv_status crv_vulkan_frame_init(crv_vulkan_frame *frame, size_t struct_size);
 
 /*
@@ -284,10 +291,10 @@ CRV_API crv_status crv_vulkan_frame_init(crv_vulkan_frame *frame, size_t struct_
  * result_stages and result_access. The recording binds a compute pipeline, descriptor set
  * 0 and push constants, and leaves them bound.
  *
- * Recordings of one pass share its images. Each waits for the one before, on one queue or
- * ordered by semaphores; several may be in one command buffer (views of a headset, split
- * screen). frame->index must not be that of a recording that is still pending.
- * Errors: INVALID_ARGUMENT, nothing recorded.
+ * Recordings of one pass share its images, and each waits for the one before. Submit them
+ * to one queue, or order them by semaphores. Several may be in one command buffer (views
+ * of a headset, split screen). frame->index must not be that of a recording that is still
+ * pending. Errors: INVALID_ARGUMENT, with nothing recorded.
  */
 CRV_API crv_status crv_vulkan_pass_record(crv_vulkan_pass *pass, VkCommandBuffer commands,
                                           const crv_vulkan_frame *frame);
@@ -297,9 +304,9 @@ CRV_API crv_status crv_vulkan_pass_record(crv_vulkan_pass *pass, VkCommandBuffer
  * submitted: "depth and normals", "depth" (each further layer), "deinterleave", "levels",
  * the method's name, the filter's name (each pass).
  * times: room for CRV_MAX_DEVICE_TIMES; *count: the number written. Does not wait.
- * Errors: INVALID_ARGUMENT; NOT_READY, not logged, while it is executed, or if nothing
- * was recorded; UNSUPPORTED if desc.timestamps is not set or the queue family has none;
- * DEVICE if the driver fails.
+ * Errors: INVALID_ARGUMENT; NOT_READY, not logged, while the recording is executed, or if
+ * nothing was recorded; UNSUPPORTED if desc.timestamps is not set or the queue family has
+ * no timestamps; DEVICE if the driver fails.
  */
 CRV_API crv_status crv_vulkan_pass_times(const crv_vulkan_pass *pass, int32_t index,
                                          crv_device_time *times, int32_t *count);
