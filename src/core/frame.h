@@ -79,8 +79,9 @@ static inline crv__vec2 crv__direction(const crv__frame *f, const crv__noise_tex
     return crv__turned(noise, f->directions[2 * k], f->directions[2 * k + 1]);
 }
 
-/* A jitter in [0, 1) for the k-th of several strata walked at one pixel: the texel's own,
- * moved on by the golden ratio, so that all k of all texels cover the interval evenly. */
+/* A jitter in [0, 1) for the k-th of several strata at one pixel: that of the noise texel
+ * plus k times the golden ratio, modulo 1, so that all k of all texels cover the interval
+ * evenly. */
 static inline float crv__stratum(const crv__noise_texel *noise, int32_t k)
 {
     const float x = 0.5f + 0.5f * noise->beta + 0.618034f * (float)k;

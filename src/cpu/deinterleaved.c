@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Builds what the deinterleaved kernels read: depth by phases, and the table of
- * samples by bucket and phase. The table depends on the camera and the options alone, so
- * that frames of one camera share it.
+ * Builds what the deinterleaved kernels read (kernels/deinterleaved.h): depth by phases
+ * of the noise tile, and a table of samples for each phase and each bucket of projected
+ * radii. The table depends only on camera and options: frames of one camera share it.
  */
 #include "cpu/deinterleaved.h"
 
@@ -13,7 +13,7 @@ enum {
     PHASES = CRV__PHASES * CRV__PHASES,
     OCTAVES = 14,       /* of projected radii, from half a pixel on */
     FAR_PX = 32,        /* samples from here on are on the phase's grid */
-    MOST_LAYERS = 3,    /* 48 bytes a pixel do not hold more */
+    MOST_LAYERS = 3,    /* more would exceed 48 bytes a pixel */
     BYTES_A_PIXEL = 48, /* beyond input and output */
     TABLES_WHATEVER_THE_SIZE = 2 << 20
 };
@@ -41,7 +41,8 @@ static int32_t wrapped(int64_t value, int32_t size)
     return (int32_t)((value % size + size) % size);
 }
 
-/* Places of a plan's pixels and the sizes of all; 0 where the structure does not fit. */
+/* Lays out a plan's pixels and computes the sizes of all memory; false if the structure
+ * does not fit. */
 static bool measure(crv__deinterleaved_state *s, const crv__setup *setup)
 {
     crv__deinterleaved *di = &s->di;
@@ -102,7 +103,7 @@ static void fill_scales(crv__deinterleaved *di, int32_t fineness)
     di->largest = CRV__SMALLEST_RADIUS_PX * (1 << OCTAVES) * exp2f(-0.5f * width) * 0.99f;
 }
 
-/* Everything but the memory; false if the plan is better or only computed exactly. */
+/* Everything but the memory; false if the plan must or should be computed exactly. */
 static bool plan(crv__deinterleaved_state *s, const crv__setup *setup)
 {
     const crv__kernels *kernels = setup->context->kernels;

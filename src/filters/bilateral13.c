@@ -4,26 +4,26 @@
  * proximity in camera-space depth. Morgan McGuire, Brian Osman, Michael Bukowski, Padraic
  * Hennessy: The Alchemy Screen-Space Ambient Obscurance Algorithm, HPG 2011.
  *
- * The paper gives neither the Gaussian's width nor the proximity function: here sigma is
- * half the reach, so that the last taps still count, and proximity falls linearly to 0 at
- * filter_depth.
+ * The paper gives neither the Gaussian's width nor the proximity function. Here sigma is
+ * half the filter's radius, so that the last taps still count, and proximity falls
+ * linearly to 0 at filter_depth.
  */
 #include "core/registry.h"
 #include "filters/tap.h"
 
-enum { REACH = 6 };
+enum { RADIUS = 6 };
 
 static float filter(const crv__frame *f, const crv__plane *input, int32_t pass, int32_t x,
                     int32_t y)
 {
-    /* exp(-k^2 / (2 sigma^2)), sigma = REACH / 2 */
-    static const float GAUSS[REACH + 1] = {1.0f,        0.94595947f, 0.80073740f,
-                                           0.60653066f, 0.41111229f, 0.24935221f,
-                                           0.13533528f};
+    /* exp(-k^2 / (2 sigma^2)), sigma = RADIUS / 2 */
+    static const float GAUSS[RADIUS + 1] = {1.0f,        0.94595947f, 0.80073740f,
+                                            0.60653066f, 0.41111229f, 0.24935221f,
+                                            0.13533528f};
     const crv__centre centre = crv__centre_at(f, x, y);
     const int32_t step_x = pass == 0, step_y = pass == 1;
     float sum = 0, weights = 0;
-    for (int32_t k = -REACH; k <= REACH; k++) {
+    for (int32_t k = -RADIUS; k <= RADIUS; k++) {
         crv__tap tap;
         if (!crv__tap_at(f, input, &centre, k * step_x, k * step_y, &tap)
             || tap.deviation >= 1)
@@ -45,5 +45,5 @@ const crv__filter crv__filter_bilateral13 = {
                       "Ambient Obscurance Algorithm",
              .options = OPTIONS},
     .passes = 2,
-    .radius_px = REACH,
+    .radius_px = RADIUS,
     .filter = filter};

@@ -11,17 +11,18 @@
 #include "core/registry.h"
 #include "filters/tap.h"
 
-enum { REACH = 2 };
+enum { RADIUS = 2 };
 
 static float filter(const crv__frame *f, const crv__plane *input, int32_t pass, int32_t x,
                     int32_t y)
 {
-    static const float BINOMIAL[REACH + 1] = {6, 4, 1}; /* the 5-tap Gaussian, unscaled */
+    static const float BINOMIAL[RADIUS + 1] = {6, 4,
+                                               1}; /* the 5-tap Gaussian, unscaled */
     const crv__centre centre = crv__centre_at(f, x, y);
     float sum = 0, weights = 0;
     (void)pass;
-    for (int32_t dy = -REACH; dy <= REACH; dy++) {
-        for (int32_t dx = -REACH; dx <= REACH; dx++) {
+    for (int32_t dy = -RADIUS; dy <= RADIUS; dy++) {
+        for (int32_t dx = -RADIUS; dx <= RADIUS; dx++) {
             crv__tap tap;
             if (!crv__tap_at(f, input, &centre, dx, dy, &tap))
                 continue;
@@ -43,5 +44,5 @@ const crv__filter crv__filter_gauss5 = {
              .paper = "Dimitrov, Bavoil, Sainz 2008: Horizon-Split Ambient Occlusion",
              .options = OPTIONS},
     .passes = 1,
-    .radius_px = REACH,
+    .radius_px = RADIUS,
     .filter = filter};

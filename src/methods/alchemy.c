@@ -5,14 +5,20 @@
  * Screen-Space Ambient Obscurance Algorithm, HPG 2011.
  *
  * With the falloff u t / max(u, t)^2 the normalisation of v = S - P cancels out of the
- * integrand: A = max(0, 1 - 2 sigma/s Sum max(0, v.n - d beta) / (v.v + eps))^k (eq. 10)
- * over s samples of a disk of the radius around P, parallel to the image. sigma and k are
- * the options intensity and contrast, applied where every method applies them.
+ * integrand. Over s samples of a disk of the radius around P, parallel to the image,
  *
- * sigma is a length and eps an area, given in the paper in metres (1 m, 1e-4 m^2) with a
- * radius of 0.5 m. Here both are given in radii, so that a scene in other units looks the
- * same: sigma = R * intensity, eps = alchemy_eps * R^2. The paper's picture is intensity
- * 2, eps 4e-4, which is what the preset `paper` sets.
+ *     A = max(0, 1 - 2 sigma/s Sum max(0, v.n - d beta) / (v.v + eps))^k      (eq. 10)
+ *
+ * sigma and k are the options intensity and contrast, which are applied after every
+ * method.
+ *
+ * In the paper sigma is a length and eps an area, in metres (1 m, 1e-4 m^2), for a radius
+ * of 0.5 m. Here both are relative to the radius, so that the unit of the scene does not
+ * matter:
+ *
+ *     sigma = R intensity,    eps = R^2 alchemy_eps
+ *
+ * The preset `paper` sets the numbers of the paper's picture: intensity 2, eps 4e-4.
  */
 #include "core/pattern.h"
 #include "core/registry.h"

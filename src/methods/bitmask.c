@@ -6,28 +6,28 @@
  * with Visibility Bitmask, The Visual Computer 2023.
  *
  * Every slice through the eye (slice.h) is cut into 32 sectors of equal measure between V
- * and the tangent. A sample at (x, z) is the front of a body of thickness h; it blocks
- * the sectors from its front to its back, and light passes behind it:
+ * and the tangent. A sample at (x, z) is the front of a body of thickness h. It blocks
+ * the sectors from its front to its back; light passes behind it:
  *
  *     uf = F(front)/Ft,  ub = F(back)/Ft
  *     bits [ceil(32 uf - zeta_k), ceil(32 ub - zeta_k)),  occ = bits set/32
  *
- * The paper's thickness is a constant. Here what is seen to extend along the slice is
- * taken to extend as far behind, and nothing to be deeper than it is wide. x0 is where
- * the run of samples began that this one belongs to; a new run begins where z rises by
- * more than 16 (x - x') over the sample before, and after background:
+ * The paper's thickness is a constant. Here a surface is taken to extend as far in depth
+ * as it is seen to extend along the slice, and no farther than it is wide. x0 is the x
+ * at which the current run of samples began. A new run begins after background, and if z
+ * is more than 16 (x - x') above the sample before, which lies at x':
  *
  *     width:     h = max(0.1 R, min(2.5 (x - x0), width))    width: width.h
  *     run:       h = max(0.1 R, 2 (x - x0))
  *     constant:  h = thickness R
  *     layers:    h = the gap to the next layer, thickness R behind the last
  *
- * Where layers are solid, the back gives h for every rule. Where they are surfaces, a
- * next one ends the body before it, and is a sheet of half the thickness.
+ * If layers are solid, the back gives h for every rule. If they are surfaces, the next
+ * layer ends the body in front of it, and is itself a sheet of half the thickness.
  *
  * A sample stands for its cell [t_lo, t_hi] of the spacing, or light would leak between
- * samples: its front lies a quarter of the way to t_lo, moved parallel to the tangent
- * plane; its back at t_hi. Both are clipped to the sphere of the radius.
+ * samples. Its front lies a quarter of the way to t_lo, moved parallel to the tangent
+ * plane; its back lies at t_hi. Both are clipped to the sphere of the radius.
  *
  *     xf = x (1 - (1 - t_lo/t)/4)    zf = min(z - (b/a)(xf - x), sqrt(R^2 - xf^2))
  *     xb = x t_hi/t                  zb = max(z - h, -sqrt(R^2 - xf^2))

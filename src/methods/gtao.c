@@ -4,8 +4,9 @@
  * Jorge Jimenez, Xian-Chun Wu, Angelo Pesce, Adrian Jarabo: Practical Realtime Strategies
  * for Accurate Indirect Occlusion, SIGGRAPH 2016 courses.
  *
- * In every slice through the eye (slice.h) the horizon h, the smallest angle theta from V
- * under which a surface is seen, starts on the tangent; everything below it is blocked:
+ * In every slice through the eye (slice.h) the horizon h is the smallest angle theta from
+ * V at which a surface is seen, at first that of the tangent. Everything below it is
+ * blocked:
  *
  *     occ = 1 - F(h)/Ft                             without falloff
  *     occ = Sum (u - u') W(r),   u = F/Ft           attenuation slab
@@ -13,8 +14,8 @@
  * The second sums over the samples that lower the horizon from u to u': each weighs the
  * directions that it is first to block. Samples beyond the radius are ignored.
  *
- * The paper has cosine weighting without falloff, and blends the cosine of distant
- * samples towards the tangent's instead.
+ * The paper has cosine weighting without falloff; instead it blends the cosine of distant
+ * samples towards that of the tangent.
  */
 #include "core/registry.h"
 #include "methods/slice.h"

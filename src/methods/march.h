@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What the methods share that walk through view space and look points up in the depth
+/* Marching through view space: what the methods share that look points up in the depth
  * buffer. */
 #ifndef CRV_METHODS_MARCH_H
 #define CRV_METHODS_MARCH_H

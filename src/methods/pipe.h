@@ -7,8 +7,8 @@
 
 /*
  * A pipe goes along z of clip space (2010, the depth buffer's own direction): the view
- * ray of a texel's centre. On it the depth buffer is exact, so that a plane never reaches
- * into a sphere that only touches it.
+ * ray of a texel's centre. On it the depth buffer is exact, so that a plane never enters
+ * a sphere that only touches it.
  */
 typedef struct crv__pipe {
     int32_t u, v;         /* the texel; may lie outside the buffers */
@@ -21,9 +21,9 @@ typedef struct crv__pipe {
 /*
  * The pipe through the sphere's centre + radius * the pattern's disk point, turned by the
  * noise, snapped to the nearest texel. The centre is P + `offset`, P the point of pixel
- * (x, y): all is reckoned from P, since far from the eye a sphere is smaller than the
- * rounding of its distance. 0 where the snapped ray misses the sphere, or the sphere is
- * not all in front of the eye.
+ * (x, y). All is relative to P, because far from the eye a sphere is smaller than the
+ * rounding of its distance. 0 if the snapped ray misses the sphere, or a part of the
+ * sphere lies behind the eye.
  */
 static inline int crv__pipe_through(const crv__params *p, int32_t x, int32_t y,
                                     crv__vec3 P, crv__vec3 offset, float radius,

@@ -3,9 +3,9 @@
  * Ray marching through the depth buffer: the baseline of Dimitrov, Bavoil, Sainz 2008
  * (Figure 12) and of Bavoil, Sainz, Dimitrov 2008 (Figure 1).
  *
- * Nd * Nn rays with cosine density over the whole hemisphere: Nd azimuths, and on each Nn
- * heights z with z^2 stratified uniformly in [0, 1], so that every ray counts alike. Rays
- * are marched in Ns steps.
+ * Nd * Nn rays with cosine density over the whole hemisphere: Nd azimuths with Nn heights
+ * z each. z^2 is stratified uniformly in [0, 1], so that every ray has the same weight.
+ * Rays are marched in Ns steps.
  */
 #include "core/registry.h"
 #include "methods/march.h"

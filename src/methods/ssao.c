@@ -4,9 +4,9 @@
  * Martin Mittring: Finding Next Gen: CryEngine 2, SIGGRAPH 2007 courses; the baseline of
  * Szirmay-Kalos et al. 2010 (Figure 11).
  *
- * Points in the whole sphere of the radius around P; A is the share that lies nearer to
- * the eye than the stored depth. Half the sphere lies behind any surface, so a flat wall
- * gives 0.5; that is the method, and the option `rescale` doubles it away.
+ * Points are distributed in the whole sphere of the radius around P. A is the share of
+ * them in front of the stored depth. Half the sphere lies behind any surface, so a flat
+ * wall is 0.5, as in the original; the option `rescale` doubles A.
  */
 #include "core/pattern.h"
 #include "core/registry.h"

@@ -4,14 +4,20 @@
  * Laszlo Szirmay-Kalos, Tamas Umenhoffer, Balazs Toth, Laszlo Szecsi, Mateu Sbert:
  * Volumetric Ambient Occlusion for Real-Time Rendering and Games, IEEE CG&A 2010.
  *
- * The open share of the volume of the tangent sphere: radius R/2, centre P + n R/2. n
- * pipes along z of clip space pierce it; dz_i is the length of the part outside the
- * surface: A = Sum dz_i / F (eq. 6, 7) with F = 2 R n / 3 (analytic: the exact volume) or
- * F = Sum of the chords' lengths (weighted importance sampling). Where a ray meets the
- * surface at most once within R this is cosine-weighted occlusion with the cubic falloff.
+ * The open share of the volume of the tangent sphere: radius R/2, centre P + n R/2. N
+ * pipes along z of clip space pierce it. dz_i is the length of the part outside the
+ * surface:
  *
- * A pipe's disk point is snapped to the texel whose view ray the pipe then is, so that
- * the depth buffer is exact on it; the chord is that of the snapped ray.
+ *     A = Sum dz_i / F                                                    (eq. 6, 7)
+ *
+ *     F = 2 R N / 3                     normaliser analytic: the sphere's exact volume
+ *     F = Sum of the chords' lengths    weighted: weighted importance sampling
+ *
+ * If a ray meets the surface at most once within R, this is cosine-weighted occlusion
+ * with the cubic falloff.
+ *
+ * A pipe's disk point is snapped to a texel, and the pipe is that texel's view ray: on it
+ * the depth buffer is exact. The chord is that of the snapped ray.
  */
 #include "core/pattern.h"
 #include "core/registry.h"

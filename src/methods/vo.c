@@ -4,13 +4,14 @@
  * Bradford Loos, Peter-Pike Sloan: Volumetric Obscurance, I3D 2010; the main comparison
  * of McGuire, Osman, Bukowski, Hennessy 2011.
  *
- * Lines along z of clip space through the full sphere of the radius around P; each is
- * open from where it enters the sphere to the surface: A = min(1, 2 Sum(open length) /
- * Sum(chord length)).
+ * Lines along z of clip space pierce the full sphere of the radius around P. Each is open
+ * from where it enters the sphere to the surface:
  *
- * Samples come in pairs mirrored at P. Under a perspective camera a plane is linear in
- * the inverse of depth; lengths are therefore measured in d - d^2/z, which is z - d to
- * first order: then every pair finds any plane through P open by exactly one half.
+ *     A = min(1, 2 Sum(open length) / Sum(chord length))
+ *
+ * Samples are pairs mirrored at P. Under a perspective camera a plane is linear in the
+ * inverse of depth. Lengths are therefore measured in d - d^2/z, which is z - d to first
+ * order: then each pair is exactly half open if the surface is any plane through P.
  */
 #include "core/pattern.h"
 #include "core/registry.h"
@@ -25,8 +26,8 @@ static float open_part(const crv__params *p, float d, float z, float half)
     return z < INFINITY ? fminf(fmaxf(behind, -half), half) + half : 2 * half;
 }
 
-/* The open length of a line: in front of the first layer, and between a back and the next
- * front where layers come in pairs. */
+/* The open length of a line: in front of the first layer, and, if layers are solid,
+ * between a back and the next front. */
 static float open_length(const crv__frame *f, int32_t u, int32_t v, float d, float half)
 {
     const crv__params *p = f->params;
