@@ -81,7 +81,8 @@ CRV_API crv_status crv_camera_from_projection(crv_camera *out, const float m[16]
 
 /* Sets world_to_view for a camera at eye that looks at target. up is the direction in
  * world space that points upwards in the image. Errors: INVALID_ARGUMENT if an argument
- * is NULL or not finite, eye equals target, or up is parallel to the view. Thread-safe. */
+ * is NULL or not finite, eye equals target, or up is parallel to the view.
+ * Thread-safe. */
 CRV_API crv_status crv_camera_look_at(crv_camera *camera, const float eye[3],
                                       const float target[3], const float up[3]);
 
