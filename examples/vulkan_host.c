@@ -6,7 +6,7 @@
  *
  *   vulkan_host [--validate] [OUT.ppm]
  *
- * Exit code 77 where there is no Vulkan 1.3 device (with --validate: no validation
+ * Exit code 77 if there is no Vulkan 1.3 device (with --validate: no validation
  * layer).
  */
 #include <math.h>

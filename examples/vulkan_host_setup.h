@@ -21,12 +21,12 @@ typedef struct host {
     int complaints;       /* lines of the validation layer */
 } host;
 
-/* validate: with the validation layer, its lines to stderr. 0; or -1 where there is no
+/* validate: with the validation layer, its lines to stderr. 0; or -1 if there is no
  * Vulkan 1.3 device, or no validation layer. host must not move afterwards. */
 int host_open(host *h, int validate);
 void host_close(host *h);
 
-/* Ends the program where the result is an error. */
+/* Ends the program if the result is an error. */
 void host_check(VkResult result, const char *what);
 
 typedef struct host_image {

@@ -6,7 +6,7 @@
  *   test_vulkan_agreement [--seed N] [--test NAME] [--cases N] [--case N]
  *                         [--half 1] [--layout N]
  *
- * What differs is printed with what repeats it. Exit code 77 where there is no device.
+ * What differs is printed with what repeats it. Exit code 77: there is no device.
  */
 #include "simd.h"
 #include "without_shader.h"
@@ -175,7 +175,7 @@ static int check(const settings *s, const devices *d, const char *test,
             filter               ? filter
             : simd_chance(&r, 3) ? crv_filter_at(simd_int(&r, 0, crv_filter_count() - 1))
                                  : NULL;
-        simd_case *c = simd_case_make(&r, method, after, filter != NULL, SIZE,
+        simd_case *c = simd_case_make(&r, method, after, filter ? 1 : 0, SIZE,
                                       (simd_scene)(i % SIMD_SCENES));
         faults += c ? check_case(d, test, i, c, &t) : 1;
         simd_case_free(c);

@@ -39,7 +39,7 @@ static void *allocate(void *user, size_t size, size_t alignment)
         return NULL;
     const size_t least = alignment < sizeof(void *) ? sizeof(void *) : alignment;
     memory = aligned_alloc(least, (size + least - 1) / least * least);
-    s->held += memory != NULL;
+    s->held += memory ? 1 : 0;
     return memory;
 }
 
@@ -430,12 +430,12 @@ static void the_callbacks_of_the_host_get_back_what_they_gave(void **state)
  *
  * What the driver makes of it is its own: it may crash, and it may keep what it had taken
  * for an object that it then did not make. Hence another process lives, and says before
- * each life which allocation will fail; where it crashes inside the driver the next one
+ * each life which allocation will fail; if it crashes inside the driver the next one
  * goes on behind that. Everything else that goes wrong is Crevice's.
  */
 
 static const char *this_program;
-static int first_due; /* of this process, where it is the other one */
+static int first_due; /* of this process, if it is the other one */
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define SANITIZED 1
@@ -603,7 +603,7 @@ static void a_device_of_ones_own_may_fail(void **state)
         memory.calls = 0;
         status = crv_context_create(&desc, &context);
         assert_true(status == CRV_OK || status == CRV_ERROR_OUT_OF_MEMORY);
-        assert_true((status == CRV_OK) == (context != NULL));
+        assert_true((status == CRV_OK) == !!context);
         crv_context_destroy(context);
         assert_int_equal(memory.held, 0);
         assert_true(memory.due < 1000);

@@ -133,7 +133,7 @@ static int device_has(const engine *g, const scene_encoding *e)
            && scene_has_format(g, e->result_format, VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT);
 }
 
-/* The picture of the scalar code, or UNSUPPORTED where the device lacks a format. */
+/* The picture of the scalar code, or UNSUPPORTED if the device lacks a format. */
 static void agrees(bench *b, scene_encoding e)
 {
     char name[160];
@@ -188,8 +188,13 @@ static void depth_in_every_listed_format(void **state)
             agrees(b, e);
         }
     }
+    e.depth_format = VK_FORMAT_R32_SFLOAT;
+    for (int kind = CRV_DEPTH_NORMALISED; kind <= CRV_DEPTH_LOGARITHMIC; kind++) {
+        e.depth = (crv_depth_encoding)kind;
+        agrees(b, e);
+    }
     /* Vulkan promises D16, one of D24 and D32, and sampling of the floats. */
-    assert_true(b->tried >= 2 * 2 + 4 * 6);
+    assert_true(b->tried >= 2 * 2 + 4 * 6 + 4);
     close_bench(b);
 }
 

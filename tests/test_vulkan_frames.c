@@ -331,6 +331,47 @@ static void options_change_without_another_pass(void **state)
     close_stage(t);
 }
 
+/* A plan is a pass on its own images. */
+static void plans_take_new_options_as_passes_do(void **state)
+{
+    stage *t = open_stage(state, &USUAL, 150, 97);
+    const crv_options first = scene_options(&t->e);
+    crv_options second = first;
+    second.radius = 1.7f;
+    second.contrast = 2;
+    second.seed = 5;
+    const crv_const_image depth = crv_const_image_packed(t->s->depth, 150, 97, 1);
+    float *pixels[2] = {malloc(pixels_of(t) * sizeof(float)),
+                        malloc(pixels_of(t) * sizeof(float))};
+    const crv_depth_format format = scene_frame(t->s, &t->e, &t->in).depth_encoding;
+    crv_gbuffer *gbuffer = NULL;
+    assert_int_equal(crv_gbuffer_create(t->context, &t->s->desc, &gbuffer), CRV_OK);
+    assert_int_equal(crv_gbuffer_set_camera(gbuffer, &t->s->camera), CRV_OK);
+    assert_int_equal(crv_gbuffer_set_depth(gbuffer, 0, &depth, &format), CRV_OK);
+    for (int i = 0; i < 2; i++) {
+        const crv_image result = crv_image_packed(pixels[i], 150, 97, 1);
+        crv_plan *plan = NULL;
+        assert_int_equal(
+            crv_plan_create(t->context, i ? &second : &first, &t->s->desc, &plan),
+            CRV_OK);
+        assert_int_equal(crv_plan_run(plan, gbuffer, &result), CRV_OK);
+        if (i == 0) {
+            assert_int_equal(crv_plan_set_options(plan, &second), CRV_OK);
+            assert_int_equal(crv_plan_run(plan, gbuffer, &result), CRV_OK);
+            second.falloff = CRV_FALLOFF_NONE; /* a specialisation constant */
+            assert_refused(t, crv_plan_set_options(plan, &second), CRV_ERROR_UNSUPPORTED,
+                           "fixed on vulkan");
+            second.falloff = first.falloff;
+        }
+        crv_plan_destroy(plan);
+    }
+    assert_same(pixels[0], pixels[1], pixels_of(t));
+    free(pixels[0]);
+    free(pixels[1]);
+    crv_gbuffer_destroy(gbuffer);
+    close_stage(t);
+}
+
 static void what_is_fixed_is_refused_by_name(void **state)
 {
     stage *t = open_stage(state, &USUAL, 150, 97);
@@ -612,6 +653,7 @@ int main(void)
         cmocka_unit_test(views_share_images_and_a_command_buffer),
         cmocka_unit_test(results_are_layers_of_an_array),
         cmocka_unit_test(options_change_without_another_pass),
+        cmocka_unit_test(plans_take_new_options_as_passes_do),
         cmocka_unit_test(what_is_fixed_is_refused_by_name),
         cmocka_unit_test(noise_of_its_own_makes_frames_converge),
         cmocka_unit_test(recordings_share_their_images),

@@ -80,7 +80,7 @@ static void images_of_every_encoding_give_the_picture_of_the_cpu(void **state)
     crv_context_destroy(context);
 }
 
-static void frames_in_flight_keep_apart(void **state)
+static void frames_in_flight_do_not_mix(void **state)
 {
     engine *g = *state;
     scene_lines log = {0};
@@ -423,7 +423,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(images_of_every_encoding_give_the_picture_of_the_cpu),
-        cmocka_unit_test(frames_in_flight_keep_apart),
+        cmocka_unit_test(frames_in_flight_do_not_mix),
         cmocka_unit_test(plans_run_on_the_queue_of_the_host),
         cmocka_unit_test(times_are_of_every_pass),
         cmocka_unit_test(a_plan_has_no_times_before_its_first_run),

@@ -12,7 +12,7 @@ typedef struct engine {
     VkCommandBuffer commands[2];
 } engine;
 
-/* As host_open(): -1 where there is no device, or no validation layer. */
+/* As host_open(): -1 if there is no device, or no validation layer. */
 int engine_open(engine *e, int validate);
 void engine_close(engine *e);
 

@@ -48,6 +48,14 @@ static double stored_depth(crv_depth_encoding kind, double d)
         return isfinite(d) ? n / d : 0; /* infinite far plane */
     if (kind == CRV_DEPTH_DISPARITY)
         return isfinite(d) ? 1 / d : 0;
+    if (kind == CRV_DEPTH_NORMALISED)
+        return isfinite(d) ? (d - n) / (f - n) : 1;
+    if (kind == CRV_DEPTH_NORMALISED_REVERSED)
+        return isfinite(d) ? (f - d) / (f - n) : 0;
+    if (kind == CRV_DEPTH_GL)
+        return isfinite(d) ? 2 * (f / (f - n)) * (1 - n / d) - 1 : 1;
+    if (kind == CRV_DEPTH_LOGARITHMIC)
+        return isfinite(d) ? log2(1 + d) / log2(1 + f) : 1;
     return d;
 }
 
@@ -158,12 +166,14 @@ static crv_depth_format scene_depth_format(const scene_encoding *e)
 {
     crv_depth_format format = crv_depth_format_planar();
     format.encoding = e->depth;
-    if (e->depth == CRV_DEPTH_HARDWARE || e->depth == CRV_DEPTH_REVERSED)
+    if (e->depth == CRV_DEPTH_HARDWARE || e->depth >= CRV_DEPTH_NORMALISED) {
         format.z_near = Z_NEAR;
-    if (e->depth == CRV_DEPTH_HARDWARE)
         format.z_far = Z_FAR;
-    if (e->depth == CRV_DEPTH_REVERSED)
+    }
+    if (e->depth == CRV_DEPTH_REVERSED) {
+        format.z_near = Z_NEAR;
         format.z_far = INFINITY;
+    }
     return format;
 }
 

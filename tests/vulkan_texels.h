@@ -18,7 +18,7 @@ typedef struct texel_layout {
     VkImageAspectFlags aspect; /* that is copied */
 } texel_layout;
 
-/* Fails the test where the format is not known here. */
+/* Fails the test if the format is not known here. */
 const texel_layout *texel_layout_of(VkFormat format);
 
 /* Writes one component of a texel whose bits are still 0; what it then holds. */

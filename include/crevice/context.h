@@ -120,8 +120,10 @@ CRV_API void crv_plan_destroy(crv_plan *plan);
  * plan. A new plan is needed for another method; for a filter where there was none, none
  * where there was one, or, with a guard band, one of another radius; for another
  * noise_size; and for directions, steps and samples that take more memory than at first,
- * as a larger or an odd number may. Then the plan stays as it is, and the line in the log
- * names the option. Errors: INVALID_ARGUMENT; UNSUPPORTED if it takes a new plan.
+ * as a larger or an odd number may; on a Vulkan device for all that
+ * crv_vulkan_pass_set_options() calls fixed. Then the plan stays as it is, and the line
+ * in the log names the option. Errors: INVALID_ARGUMENT; UNSUPPORTED if it takes a new
+ * plan.
  */
 CRV_API crv_status crv_plan_set_options(crv_plan *plan, const crv_options *options);
 

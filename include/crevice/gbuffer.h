@@ -30,9 +30,8 @@ typedef enum crv_depth_encoding {
     /* A depth buffer in [0, 1], 0 at near, 1 at far. An OpenGL depth texture holds the
      * same with the default glDepthRange. */
     CRV_DEPTH_HARDWARE = 2,
-    CRV_DEPTH_REVERSED = 3,  /* a depth buffer in [0, 1], 1 at near, 0 at far */
-    CRV_DEPTH_DISPARITY = 4, /* 1 / planar depth; 0 is background */
-    /* The following are for files and memory, not for images of a Vulkan pass. */
+    CRV_DEPTH_REVERSED = 3,            /* a depth buffer in [0, 1], 1 at near, 0 at far */
+    CRV_DEPTH_DISPARITY = 4,           /* 1 / planar depth; 0 is background */
     CRV_DEPTH_NORMALISED = 5,          /* planar depth, in [0, 1] from near to far */
     CRV_DEPTH_NORMALISED_REVERSED = 6, /* the same, 1 at near, 0 at far */
     CRV_DEPTH_GL = 7, /* OpenGL's clip space: a depth buffer in [-1, 1], 1 at far */

@@ -111,8 +111,8 @@ crv_status crv_plan_set_options(crv_plan *plan, const crv_options *options)
                          obstacle);
     if (!crv__plan_update(plan, &full))
         return crv__fail(logger, CRV_ERROR_UNSUPPORTED,
-                         "plan: samples, steps or directions need memory that this plan "
-                         "on %s does not have; make a new plan with these options",
+                         "plan: directions, steps, samples or another option that is "
+                         "fixed on %s cannot change; make a new plan with these options",
                          plan->context->backend->name);
     return CRV_OK;
 }

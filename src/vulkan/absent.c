@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What stands in for the Vulkan backend where the library is built without it. */
+/* What stands in for the Vulkan backend if the library is built without it. */
 #include "core/backend.h"
 
 static crv_status absent(const crv_logger *logger)

@@ -17,7 +17,7 @@ typedef struct plan_state {
 static crv_status create_staging(crv__staging *s, const crv__device *d,
                                  const crv__setup *setup)
 {
-    enum { TEXEL = 16 }; /* of normals; where they begin is a multiple of it */
+    enum { TEXEL = 16 }; /* bytes, of normals, which begin at a multiple of it */
     const crv__rectangle r = crv__setup_rectangle(setup);
     const size_t pixels = (size_t)setup->desc.width * (size_t)setup->desc.height;
     const size_t depth = pixels * (size_t)setup->desc.layers * sizeof(float);

@@ -11,7 +11,7 @@ typedef struct crv__commands {
     VkFence fence;
 } crv__commands;
 
-/* INVALID_ARGUMENT with a line where the host gave no queue; `what` needs it. Destroy
+/* INVALID_ARGUMENT with a line if the host gave no queue, which `what` needs. Destroy
  * also after an error. */
 crv_status crv__commands_create(crv__commands *c, const crv__device *d, const char *what);
 void crv__commands_destroy(crv__commands *c, const crv__device *d);

@@ -148,7 +148,7 @@ static crv_status open_instance(crv__device *d)
     return crv__table_load_instance(&d->vk, d->instance, &d->logger);
 }
 
-/* INVALID_ARGUMENT, not logged, where there are not so many. */
+/* INVALID_ARGUMENT, not logged, if there are fewer. */
 static crv_status choose_physical(crv__device *d, int32_t index, uint32_t *count)
 {
     VkPhysicalDevice devices[MOST_DEVICES];

@@ -42,10 +42,10 @@ extern const crv__backend crv__vulkan_backend;
 /* Gives the context a device of Crevice's own by its number, and its backend. */
 crv_status crv__vulkan_open(crv_context *context, int32_t index);
 
-/* The context's device; NULL where it has none. */
+/* The context's device; NULL: it has none. */
 crv__device *crv__device_of(const crv_context *context);
 
-/* Logs `what` with the name of the result; the status that it is. */
+/* Logs `what` with the name of the result; its status. */
 crv_status crv__device_fail(const crv__device *d, VkResult result, const char *what);
 
 /* Names an object for debuggers, if the host has VK_EXT_debug_utils. */

@@ -68,7 +68,7 @@ static const format_row *row_of(VkFormat format)
     return NULL;
 }
 
-int crv__format_has(const crv__device *d, VkFormat format, VkFormatFeatureFlags features)
+bool crv__format_has(const crv__device *d, VkFormat format, VkFormatFeatureFlags features)
 {
     VkFormatProperties properties;
     d->vk.GetPhysicalDeviceFormatProperties(d->physical, format, &properties);
@@ -80,7 +80,7 @@ int crv__format_has(const crv__device *d, VkFormat format, VkFormatFeatureFlags 
 static crv_status check_format(const crv__device *d, VkFormat format, int use,
                                const char *what, const char *instead)
 {
-    const int stored = use == FOR_RESULTS;
+    const bool stored = use == FOR_RESULTS;
     const format_row *row = row_of(format);
     if (!row || !(row->uses & use))
         return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
@@ -102,10 +102,10 @@ static crv_status check_normals(const crv_logger *logger,
                                 const crv_vulkan_pass_desc *desc)
 {
     const format_row *row = row_of(desc->normal_format);
-    const int flat = desc->normals == CRV_VULKAN_NORMALS_OCT
-                     || desc->normals == CRV_VULKAN_NORMALS_OCT_HALVED;
-    const int halved = desc->normals == CRV_VULKAN_NORMALS_XYZ_HALVED
-                       || desc->normals == CRV_VULKAN_NORMALS_OCT_HALVED;
+    const bool flat = desc->normals == CRV_VULKAN_NORMALS_OCT
+                      || desc->normals == CRV_VULKAN_NORMALS_OCT_HALVED;
+    const bool halved = desc->normals == CRV_VULKAN_NORMALS_XYZ_HALVED
+                        || desc->normals == CRV_VULKAN_NORMALS_OCT_HALVED;
     if (!flat && row->components < 3)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "pass: normal_format %s has no z; set normals to "
@@ -142,14 +142,14 @@ crv_status crv__formats_check(const crv__device *d, const crv_vulkan_pass_desc *
 
 /* ---- layouts ---- */
 
-/* What an image may be in where shaders sample it. */
+/* Which images shaders sample in a layout. */
 enum { OF_NOTHING, OF_COLOUR_AND_DEPTH, OF_DEPTH };
 
 typedef struct layout_row {
     VkImageLayout layout;
     const char *name;
     int sampled; /* one of the above */
-    int colour;  /* 0 or 1: whether an image of colours can be left in it */
+    bool colour; /* an image of colours can be left in it */
 } layout_row;
 
 /* Of Vulkan 1.3; of extensions those that hosts confuse with them. */
@@ -201,7 +201,7 @@ static crv_status check_input(const crv_logger *logger, const crv_vulkan_input *
 {
     char number[32];
     const layout_row *row = layout_of(input->layout);
-    const int is_depth = row_of(format)->kind == KIND_DEPTH;
+    const bool is_depth = row_of(format)->kind == KIND_DEPTH;
     if (!input->view)
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "pass: %s: there is no view; give one", what);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Which images of the host's a pass takes: formats, encodings and layouts (vulkan.h lists
+/* The host's images that a pass takes: formats, encodings and layouts (vulkan.h lists
  * them). */
 #ifndef CRV_VULKAN_FORMATS_H
 #define CRV_VULKAN_FORMATS_H
@@ -7,13 +7,14 @@
 #include "vulkan/device.h"
 
 /* Whether optimal images of the format have all of these features. */
-int crv__format_has(const crv__device *d, VkFormat format, VkFormatFeatureFlags features);
+bool crv__format_has(const crv__device *d, VkFormat format,
+                     VkFormatFeatureFlags features);
 
-/* INVALID_ARGUMENT where normals are not stored like that in such a format, UNSUPPORTED
- * where a format is none that is listed or the device lacks it. Each logs its line. */
+/* INVALID_ARGUMENT if normals are not stored like that in such a format, UNSUPPORTED if a
+ * format is not listed or the device lacks it. Each logs its line. */
 crv_status crv__formats_check(const crv__device *d, const crv_vulkan_pass_desc *desc);
 
-/* INVALID_ARGUMENT with a line where a view is missing, or a layout can never be right.
+/* INVALID_ARGUMENT with a line if a view is missing, or a layout can never be right.
  */
 crv_status crv__layouts_check(const crv_logger *logger, const crv_vulkan_pass_desc *desc,
                               int32_t layers, const crv_vulkan_frame *frame);

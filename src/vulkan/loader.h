@@ -96,8 +96,8 @@ typedef struct crv__debug_table {
 
 crv__debug_table crv__debug_load(const crv__vk_table *t, VkInstance instance);
 
-/* The loader that is installed on this machine, for contexts that make their own device.
- * NULL where there is none. */
+/* The loader installed on this machine, for contexts that make their own device.
+ * NULL: there is none. */
 void *crv__loader_open(PFN_vkGetInstanceProcAddr *function);
 void crv__loader_close(void *loader);
 

@@ -30,8 +30,7 @@ typedef struct crv__image {
     crv__image_desc desc;
     VkImage image;
     VkImageView view; /* of all layers, level 0 */
-    VkImageView
-        all; /* of all layers and levels; VK_NULL_HANDLE where there is one level */
+    VkImageView all;  /* of all layers and levels; VK_NULL_HANDLE: there is one level */
     /* Of one each, of arrays of up to CRV_MAX_LAYERS. */
     VkImageView part[CRV_MAX_LAYERS][CRV__MOST_LEVELS];
     crv_vulkan_block block;

@@ -124,8 +124,8 @@ static VkResult compile(const crv__device *d, int32_t shader,
     return result;
 }
 
-/* An empty place, or that of the pipeline which has been idle for longest; NULL where all
- * are in use. */
+/* An empty place, or that of the pipeline that has been idle for longest; NULL: all are
+ * in use. */
 static crv__kept_pipeline *place_for_another(const crv__device *d)
 {
     crv__kept_pipeline *best = NULL;

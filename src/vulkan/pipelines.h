@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The pipelines of a device. Compiling takes longer than all else that a plan does, and a
- * new size needs the same pipelines: those that nobody uses any more are kept for a
- * while.
+ * new size needs the same pipelines: unused ones are kept for a while.
  */
 #ifndef CRV_VULKAN_PIPELINES_H
 #define CRV_VULKAN_PIPELINES_H
@@ -69,11 +68,11 @@ struct crv__pipelines {
     uint64_t clock;
 };
 
-/* Sets d->pipelines. Where it fails, crv__pipelines_close() takes back the rest. */
+/* Sets d->pipelines. Close also after an error. */
 crv_status crv__pipelines_open(crv__device *d);
 void crv__pipelines_close(crv__device *d);
 
-/* All that a shader may have fixed left to the buffers, in workgroups of this edge. */
+/* Fixes nothing but the workgroup's edge: shaders read the rest from buffers. */
 void crv__specs_clear(int32_t specs[CRV__SPECS], int32_t group);
 
 VkDescriptorType crv__binding_type(uint32_t binding);

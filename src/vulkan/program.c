@@ -5,10 +5,10 @@
 #include <string.h>
 
 /*
- * How often loops may turn for a pixel in one dispatch: as many fetches take a tenth of a
- * second for a frame of 4K where a device makes 10^12 a second, and one that is ten times
- * slower still keeps the seconds after which it is taken for lost. Lavapipe breaks loops
- * off after 65535 rounds, all loops counted together.
+ * Rounds of loops for a pixel in one dispatch, at most. That many fetches for a frame of
+ * 4K take a tenth of a second on a device that fetches 10^12 texels a second, and a
+ * second on one that is ten times slower: drivers take a device for lost after several.
+ * Lavapipe breaks loops off after 65535 rounds, all loops counted together.
  */
 enum { PART_ROUNDS = 16384, LAVAPIPE_ROUNDS = 65535 };
 

@@ -6,7 +6,7 @@
  *
  * A = max(0, 1 - 2 sigma/s Sum max(0, v.n - d beta) / (v.v + eps))^k (eq. 10) over s
  * samples of a disk of the radius around P, parallel to the image; sigma = R * intensity
- * and k = contrast are applied where every method applies them. src/methods/alchemy.c
+ * and k = contrast are applied in estimate.glsl. src/methods/alchemy.c
  */
 #ifndef ALCHEMY_GLSL
 #define ALCHEMY_GLSL

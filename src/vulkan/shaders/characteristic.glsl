@@ -7,7 +7,7 @@
 #include "march.glsl"
 
 /* Whether q is in front of the depth buffer's first surface or behind the back of every
- * surface in front of it: the next layer where layers come in pairs, else `thickness`
+ * surface in front of it: the next layer if layers come in pairs, else `thickness`
  * behind the front. Off the buffers is outside. */
 bool is_outside_depth(vec3 q, float thickness)
 {

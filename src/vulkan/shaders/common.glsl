@@ -13,7 +13,7 @@
 layout(local_size_x_id = 0, local_size_y_id = 1) in;
 layout(local_size_x = 8, local_size_y = 8) in;
 
-/* What the compiler unrolls and folds where the host fixes it; -1: read from `params`. */
+/* The compiler unrolls and folds what the host fixes; -1: read from `params`. */
 layout(constant_id = 2) const int FALLOFF = -1;
 layout(constant_id = 3) const int DIRECTIONS = -1;
 layout(constant_id = 4) const int STEPS = -1;

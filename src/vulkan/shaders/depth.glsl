@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Depth encodings to planar depth with background +inf: src/core/depth.c, which reckons
+ * Depth encodings to planar depth with background +inf: src/core/depth.c, which computes
  * in double precision. In single precision a depth v between planes must be counted from
  * the end at which its map is smaller, by u = v or u = 1 - v (exact for v from 1/2 to 1):
  * 1/d = 1/far + (1/near - 1/far) u with perspective, d = near + (far - near) u without.

@@ -10,7 +10,7 @@
 #include "common.glsl"
 #include "part.glsl"
 
-/* The depth by which an offset on the image plane at depth 1 grows; 1 where rays are
+/* The depth by which an offset on the image plane at depth 1 grows; 1 if rays are
  * parallel. */
 float view_unit(float depth)
 {
@@ -76,7 +76,7 @@ vec2 direction_at(crv__noise_texel noise, int k)
     return turned(noise, direction_of(k));
 }
 
-/* A jitter in [0, 1) for the k-th of several strata walked at one pixel: the texel's own,
+/* A jitter in [0, 1) for the k-th of several strata of one pixel: the texel's own,
  * moved on by the golden ratio, so that all k of all texels cover the interval evenly. */
 float stratum_at(crv__noise_texel noise, int k)
 {

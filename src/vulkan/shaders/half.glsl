@@ -2,7 +2,7 @@
 /*
  * Filters in half floats, for devices that have them (shaderFloat16): an invocation
  * filters two pixels, a lane each of every f16vec2, so that one packed instruction does
- * both. They lie a workgroup's edge apart along lane_step(), hence their taps do too, and
+ * both. They differ by a workgroup's edge along lane_step(), as do their taps, and
  * the tile in shared memory holds such pairs: nothing is shuffled.
  *
  * What keeps the error below 1e-3 of accessibility:
@@ -31,7 +31,7 @@ struct Texel {
 };
 
 /* What lies outside the buffers is background. All is fetched first, at the nearest
- * texel, and left out where it does not count. */
+ * texel, and left out if it does not count. */
 Texel texel_at(ivec2 at)
 {
     const ivec2 texel = clamp(at, ivec2(0), ivec2(params.width - 1, params.height - 1));

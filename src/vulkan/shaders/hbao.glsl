@@ -5,7 +5,7 @@
  * Occlusion, SIGGRAPH 2008 talks.
  *
  * In each of the slices that directions theta cut from the hemisphere, the depth buffer
- * is walked outwards and the horizon h, the largest elevation so far, is kept: A = 1 -
+ * is marched outwards and the horizon h, the largest elevation so far, is kept: A = 1 -
  * 1/(2 pi) Int (sin h - sin t) W dtheta (eq. 3), t the tangent. src/methods/hbao.c is the
  * specification and says why each sample has a tangent of its own.
  */
@@ -22,7 +22,7 @@ const int ATTENUATION_SLAB = 0;
 /* The shaded point P, on the image plane at `ray`. */
 struct Shaded {
     float depth;
-    vec3 ray; /* P / depth; (0, 0, -1) where rays are parallel */
+    vec3 ray; /* P / depth; (0, 0, -1) if rays are parallel */
     vec3 n;
     float facing; /* -n.ray */
 };
@@ -35,9 +35,9 @@ struct Slice {
 };
 
 /*
- * -sin t of the sample's own tangent T, raised by the bias; offset is the step on the
+ * -sin t of the sample's own tangent T, raised by the bias; offset is the way on the
  * image plane from P's view ray to the sample's. T is parallel to the plane (P, n) and to
- * that of both view rays, and points to the sample. -2 where the bias raises the tangent
+ * that of both view rays, and points to the sample. -2 if the bias raises the tangent
  * past the zenith.
  */
 float tangent_fall(Shaded s, vec2 offset)
@@ -84,16 +84,16 @@ float step_share(int i, float beta)
     return spacing_kind() == SPACING_QUADRATIC ? squared : t;
 }
 
-/* Occlusion of one slice; `reach` is the direction times the projected radius, y down. */
-float slice_occlusion(Shaded s, ivec2 at, vec2 reach, float beta)
+/* Occlusion of one slice; `span` is the direction times the projected radius, y down. */
+float slice_occlusion(Shaded s, ivec2 at, vec2 span, float beta)
 {
     Slice slice = Slice(0, 0, 0);
-    const float reach_px = length(reach);
+    const float span_px = length(span);
     for (int i = 0; i < step_count(); i++) {
         const float t = step_share(i, beta);
-        precise vec2 place = vec2(at) + 0.5 + t * reach;
+        precise vec2 place = vec2(at) + 0.5 + t * span;
         const vec2 inside = clamped_place(place); /* beyond is background */
-        const int level = level_at(t * reach_px);
+        const int level = level_at(t * span_px);
         const ivec2 texel = standing_for(ivec2(inside), level);
         const vec2 offset = image_offset(at, texel);
         for (int layer = 0; layer < layer_count(); layer++) {
@@ -115,8 +115,8 @@ float accessibility(ivec2 at, float d)
     float occlusion = sums_before(at).x;
     for (int k = part_begin(); k < part_end(direction_count()); k++) {
         const vec2 direction = direction_at(noise, k);
-        precise vec2 reach = vec2(direction.x * radius_px.x, -direction.y * radius_px.y);
-        occlusion += slice_occlusion(s, at, reach, noise.beta);
+        precise vec2 span = vec2(direction.x * radius_px.x, -direction.y * radius_px.y);
+        occlusion += slice_occlusion(s, at, span, noise.beta);
     }
     keep_sums(at, vec2(occlusion, 0));
     return 1 - occlusion / float(direction_count());

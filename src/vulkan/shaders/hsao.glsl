@@ -22,7 +22,7 @@ struct Horizon {
     float occlusion; /* of all below, falloff applied */
 };
 
-/* Deflects the horizon ray h towards origin + to where that raises the horizon. */
+/* Deflects the horizon ray h towards origin + to if that raises the horizon. */
 void raise_horizon(inout Horizon horizon, inout float weight, inout vec3 h, vec3 to,
                    vec3 n, vec3 t, float reached)
 {

@@ -11,7 +11,7 @@ bool in_input(ivec2 at)
     return all(lessThan(uvec2(place), uvec2(push.in_width, push.in_height)));
 }
 
-/* The nearest one where not in_input(at). */
+/* The nearest one if not in_input(at). */
 float input_at(ivec2 at)
 {
     const ivec2 last = ivec2(push.in_width - 1, push.in_height - 1);

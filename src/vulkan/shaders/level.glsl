@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Large radii: far samples read coarser levels of the depth image, whose texels lie
- * together in the cache where those of level 0 are strewn over the picture (McGuire,
+ * together in the cache, while those of level 0 are scattered over the picture (McGuire,
  * Mara, Luebke: Scalable Ambient Obscurance, HPG 2012). A level holds depths of level 0
  * as they are, of one texel in the middle of each block, not means of them: a sample is
  * moved to that texel and remains a point of the surface, so that a plane still finds

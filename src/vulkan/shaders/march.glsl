@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Walking through view space and looking points up in the depth buffer:
+/* Marching through view space and looking points up in the depth buffer:
  * src/methods/march.h */
 #ifndef MARCH_GLSL
 #define MARCH_GLSL
@@ -44,7 +44,7 @@ vec3 lifted(vec3 P, vec3 n)
     return point;
 }
 
-/* The pixel that a view-space point falls on. False where it is behind the eye or off the
+/* The pixel that a view-space point falls on. False if it is behind the eye or off the
  * buffers. */
 bool texel_of(vec3 Q, out ivec2 texel)
 {
@@ -57,7 +57,7 @@ bool texel_of(vec3 Q, out ivec2 texel)
     return all(bvec2(unit > 0, inside == place));
 }
 
-/* The depth of the back of what has its front at depth d in this layer: where layers come
+/* The depth of the back of what has its front at depth d in this layer: if layers come
  * in pairs, the next one's; else `thickness` behind the front. */
 float back_of(int layer, ivec2 texel, float d, float thickness)
 {
@@ -104,7 +104,7 @@ vec3 stepped(vec3 origin, vec3 direction, int i, float beta)
 }
 
 /* Marches from `origin` along the unit vector `direction`. The falloff's weight of the
- * first thing in the way; 0 where there is none. */
+ * first thing in the way; 0: there is none. */
 float marched(vec3 origin, vec3 direction, float beta)
 {
     for (int i = 1; i <= step_count(); i++) {

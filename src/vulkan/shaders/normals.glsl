@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Normals: decoded, turned to view space, reconstructed from depth where there are none,
+/* Normals: decoded, turned to view space, reconstructed from depth if there are none,
  * and made to face the camera. src/core/normals.c says why. */
 #ifndef NORMALS_GLSL
 #define NORMALS_GLSL
@@ -39,7 +39,7 @@ float depth_in_tile(ivec2 at)
     return tile_depth[place.y * int(TILE_ROW) + place.x];
 }
 
-/* Zero where the length is zero, infinite or NaN. Scaled first: squares of small scenes'
+/* Zero if the length is zero, infinite or NaN. Scaled first: squares of small scenes'
  * lengths underflow. */
 vec3 normalized(vec3 v)
 {
@@ -101,8 +101,8 @@ vec3 normal_from_depth(ivec2 at, float d)
     return normalized(normal);
 }
 
-/* A shading normal that leans away from the camera belongs to the back of a triangle
- * where it contradicts the surface that depth shows: turn it round. Otherwise bend it
+/* A shading normal that points away from the camera belongs to the back of a triangle
+ * if it contradicts the surface that depth shows: turn it round. Otherwise bend it
  * until it just faces the camera. */
 vec3 facing_camera(ivec2 at, float d, vec3 n)
 {

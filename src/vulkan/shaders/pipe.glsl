@@ -17,7 +17,7 @@ struct Pipe {
 /*
  * The pipe through the sphere's centre + radius * the pattern's disk point, turned by the
  * noise, snapped to the nearest texel. The centre is P + `offset`, P the point of pixel
- * `at`; all is reckoned from P. False where the snapped ray misses the sphere, or the
+ * `at`; all is computed from P. False if the snapped ray misses the sphere, or the
  * sphere is not all in front of the eye.
  */
 bool pipe_through(ivec2 at, vec3 P, vec3 offset, float radius, vec2 point,
@@ -60,7 +60,7 @@ bool pipe_through(ivec2 at, vec3 P, vec3 offset, float radius, vec2 point,
 
 /* The length between two depths, `from` to `to` behind `origin`, that lies outside the
  * surfaces of the depth buffer at a texel: in front of the first layer, and in between
- * where layers come in pairs. */
+ * if layers come in pairs. */
 float open_length(ivec2 texel, float origin, float from, float to)
 {
     if (!in_buffers(texel))

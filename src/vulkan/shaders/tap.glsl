@@ -15,7 +15,7 @@ shared vec4 tile_surface[TILE_TEXELS]; /* normal, depth */
 shared float tile_value[TILE_TEXELS];  /* accessibility; NaN: no tap */
 
 /* Takes the texel `at` into the tile; what lies outside the buffers as background. All is
- * fetched first, at the nearest texel, and left out where it does not count. */
+ * fetched first, at the nearest texel, and left out if it does not count. */
 void take_texel(int index, ivec2 at)
 {
     const ivec2 texel = clamp(at, ivec2(0), ivec2(params.width - 1, params.height - 1));
@@ -75,7 +75,7 @@ struct Tap {
     float value;
     float deviation; /* of its depth from what the centre leads one to expect, in units of
                         filter_depth */
-    float likeness;  /* of its normal to the centre's, at most 1; 0 or less where there is
+    float likeness;  /* of its normal to the centre's, at most 1; 0 or less if there is
                         no such tap: outside the picture, background, a surface turned by
                         filter_normal or more, or one so far off that the deviation
                         overflows */

@@ -23,7 +23,7 @@ float open_part(float d, float z, float half_chord)
 }
 
 /* The open length of a line: in front of the first layer, and between a back and the next
- * front where layers come in pairs. */
+ * front if layers come in pairs. */
 float open_length(ivec2 texel, float d, float half_chord)
 {
     if (!in_buffers(texel))
