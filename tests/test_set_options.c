@@ -2,6 +2,7 @@
 /* A plan with new options computes what a new plan with them computes, to the bit. */
 #include "fixture.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -92,7 +93,14 @@ static void change(crv_options *options, const crv_option *option)
     assert_int_equal(crv_options_set(options, option->key, text, NULL), CRV_OK);
 }
 
-static void check_option(const world *w, const crv_options *first,
+/* Fewer samples may want the tables of deinterleaved kernels, which the plan lacks. */
+static bool may_want_tables(const crv_option *option)
+{
+    return strcmp(option->key, "directions") == 0 || strcmp(option->key, "steps") == 0
+           || strcmp(option->key, "samples") == 0;
+}
+
+static void check_option(const world *w, const crv_options *first, int32_t exact,
                          const crv_option *option)
 {
     float before[SIZE], changed[SIZE], expected[SIZE], after[SIZE];
@@ -102,9 +110,10 @@ static void check_option(const world *w, const crv_options *first,
     assert_int_equal(crv_plan_create(w->context, first, &w->desc, &plan), CRV_OK);
     run(w, plan, before);
     const crv_status status = crv_plan_set_options(plan, &next);
-    if (strcmp(option->key, "noise_size") == 0) {
+    if (strcmp(option->key, "noise_size") == 0
+        || (status == CRV_ERROR_UNSUPPORTED && !exact && may_want_tables(option))) {
         assert_int_equal(status, CRV_ERROR_UNSUPPORTED);
-        assert_non_null(strstr(w->line, "noise_size"));
+        assert_non_null(strstr(w->line, option->key));
         run(w, plan, after);
         assert_memory_equal(before, after, sizeof before);
         crv_plan_destroy(plan);
@@ -134,7 +143,7 @@ static void every_option_of_every_method(void **state)
             const crv_options first = fixture_options(crv_method_at(m)->name);
             for (int32_t i = 0; i < crv_option_count(); i++) {
                 if (crv_option_applies(crv_option_at(i), first.method, first.filter))
-                    check_option(&w, &first, crv_option_at(i));
+                    check_option(&w, &first, exact, crv_option_at(i));
             }
         }
         close_world(&w);
