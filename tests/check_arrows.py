@@ -49,7 +49,9 @@ uchar.h wchar.h wctype.h""".split())
 SYSTEM = {
     "include/crevice": {"stdbool.h", "stddef.h", "stdint.h", "vulkan/vulkan.h"},
     "src/shared": {"stddef.h", "stdint.h"},  # offsetof pins layouts
-    "src/base": STANDARD | {"malloc.h", "omp.h", "pthread.h", "sys/mman.h", "xlocale.h"},  # the systems' allocators
+    # The systems' allocators, threads and locales.
+    "src/base": STANDARD
+    | {"malloc.h", "omp.h", "pthread.h", "sys/mman.h", "unistd.h", "xlocale.h"},
     "src/core": STANDARD,
     "src/methods": STANDARD,
     "src/filters": STANDARD,

@@ -14,6 +14,8 @@ add_test(NAME test_ao_many_threads COMMAND test_ao)
 set_tests_properties(test_ao_many_threads PROPERTIES
     ENVIRONMENT OMP_NUM_THREADS=100000 TIMEOUT ${CREVICE_TEST_TIMEOUT})
 crevice_test(test_set_options SOURCES test_set_options.c LIBS crevice_fixture)
+crevice_test(test_parallel SOURCES test_parallel.c ${PROJECT_SOURCE_DIR}/src/base/parallel.c)
+target_include_directories(test_parallel PRIVATE ${PROJECT_SOURCE_DIR}/src)
 crevice_test(test_locale SOURCES test_locale.c LIBS crevice_fixture)
 crevice_test(test_camera SOURCES test_camera.c LIBS crevice_fixture)
 crevice_test(test_filters SOURCES test_filters.c LIBS crevice_fixture)

@@ -3,6 +3,7 @@
 #include "fixture.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -482,6 +483,21 @@ static void mismatched_objects_are_refused(void **state)
     destroy(&b);
 }
 
+static void what_was_built_in_is_told(void **state)
+{
+    (void)state;
+    const uint32_t known = CRV_FEATURE_VULKAN | CRV_FEATURE_OPENMP;
+    assert_int_equal(crv_features() & ~known, 0);
+    crv_device_info info;
+    const bool vulkan = crv_features() & CRV_FEATURE_VULKAN;
+    const crv_status status = crv_vulkan_device_info(0, &info, NULL);
+    assert_true(vulkan || status == CRV_ERROR_UNSUPPORTED);
+    assert_int_equal(vulkan, CRV_HAS_VULKAN);
+    assert_int_equal(crv_struct_size(CRV_STRUCT_OPTIONS), sizeof(crv_options));
+    assert_int_equal(crv_struct_size(CRV_STRUCT_GBUFFER_DESC), sizeof(crv_gbuffer_desc));
+    assert_int_equal(crv_struct_size((crv_struct)99), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -490,6 +506,7 @@ int main(void)
         cmocka_unit_test(memory_stays_within_the_promise),
         cmocka_unit_test(calls_out_of_order_are_told),
         cmocka_unit_test(bad_sizes_are_refused),
+        cmocka_unit_test(what_was_built_in_is_told),
         cmocka_unit_test(bad_images_are_refused),
         cmocka_unit_test(structs_of_every_earlier_size_are_taken),
         cmocka_unit_test(missing_members_take_their_defaults),

@@ -35,9 +35,8 @@ CRV_API crv_status crv_ao(const crv_const_image *depth, const crv_const_image *n
  * Width of the guard band, in px on each side, with which the border of the result is as
  * good as its middle: the radius of influence projected at nearest_depth, the least
  * planar depth in view (scene units, > 0; not read for an orthographic camera), up to
- * options->max_radius_px if the method reads it, and the support of the filter. Half of
- * it usually does, since few things are that near. At most CRV_MAX_SIZE. 0 if an
- * argument is NULL or not valid. Thread-safe.
+ * options->max_radius_px if the method reads it, and the support of the filter. At most
+ * CRV_MAX_SIZE. 0 if an argument is NULL or not valid. Thread-safe.
  */
 CRV_API int32_t crv_guard_px(const crv_options *options, const crv_camera *camera,
                              float nearest_depth);

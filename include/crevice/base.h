@@ -43,6 +43,31 @@ extern "C" {
  * Thread-safe. */
 CRV_API const char *crv_version(void);
 
+/* What was built into the library that is linked. Its CMake package and pkg-config define
+ * CRV_HAS_VULKAN as 1 or 0 for the compiler. */
+typedef enum crv_feature {
+    CRV_FEATURE_VULKAN = 1, /* Vulkan devices, and the functions of vulkan.h */
+    CRV_FEATURE_OPENMP = 2  /* OpenMP runs parallel loops */
+} crv_feature;
+
+/* The features, a bit crv_feature each. Thread-safe. */
+CRV_API uint32_t crv_features(void);
+
+/* The structs that a binding to another language allocates without the headers. */
+typedef enum crv_struct {
+    CRV_STRUCT_CAMERA = 0,
+    CRV_STRUCT_CONST_IMAGE = 1,
+    CRV_STRUCT_CONTEXT_DESC = 2,
+    CRV_STRUCT_DEPTH_FORMAT = 3,
+    CRV_STRUCT_GBUFFER_DESC = 4,
+    CRV_STRUCT_IMAGE = 5,
+    CRV_STRUCT_OPTIONS = 6
+} crv_struct;
+
+/* sizeof of the struct in the library that is linked: what its _init takes. 0 for another
+ * number. Thread-safe. */
+CRV_API size_t crv_struct_size(crv_struct which);
+
 /* Result of a call. Every function that can fail returns one of these; outputs are
  * untouched unless it is CRV_OK. */
 typedef enum crv_status {
@@ -67,8 +92,8 @@ typedef enum crv_log_level {
     CRV_LOG_INFO = 2
 } crv_log_level;
 
-/* Where messages go. A logger with fn == NULL is silent; functions that take a
- * `const crv_logger *` take NULL for the same. */
+/* Where messages go. A logger whose fn is NULL is silent, and so is a logger that is NULL
+ * itself. */
 typedef struct crv_logger {
     /* Receives one line without a newline. `line` is valid during the call only. Called
      * on the thread that called into Crevice. */
@@ -87,8 +112,8 @@ typedef struct crv_allocator {
     void *user; /* handed to both; not owned */
 } crv_allocator;
 
-/* Who runs parallel loops. With run == NULL OpenMP does, where the library was built with
- * it, and the calling thread alone otherwise. */
+/* Who runs parallel loops. If run is NULL, OpenMP does, or, in a library that was built
+ * without it, POSIX threads; where there are none either, the calling thread. */
 typedef struct crv_parallel {
     /* Calls task(data, i) once for every i in [0, count), on any threads in any order,
      * and returns when all are done. Results do not depend on the order. */

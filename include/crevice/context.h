@@ -14,9 +14,9 @@
 extern "C" {
 #endif
 
-/* Instruction sets of the CPU for which there are kernels. With crv_context_desc.exact
- * every one computes the same estimate: within 1e-3 of the scalar code, but for a few
- * pixels where rounding picks the neighbouring texel. */
+/* Instruction sets of the CPU that have kernels. With crv_context_desc.exact all of them
+ * compute the same estimate within 1e-3, but for a few pixels in which rounding picks
+ * the neighbouring texel. */
 typedef enum crv_isa {
     CRV_ISA_SCALAR, /* plain C, the specification */
     CRV_ISA_SSE4,   /* x86-64-v2 */
@@ -28,8 +28,8 @@ typedef enum crv_isa {
 /* "scalar", "sse4", "avx2", "avx512", "neon"; NULL for no such set. Thread-safe. */
 CRV_API const char *crv_isa_name(crv_isa isa);
 
-/* The sets that are built in and that this machine has, a bit 1u << crv_isa each;
- * CRV_ISA_SCALAR is always there. Thread-safe. */
+/* The sets that are built in and that this machine has: a bit 1u << crv_isa for each.
+ * CRV_ISA_SCALAR is always among them. Thread-safe. */
 CRV_API uint32_t crv_isa_available(void);
 
 /* Where plans run. */
@@ -45,14 +45,17 @@ typedef struct crv_context_desc {
     size_t struct_size;      /* set by crv_context_desc_init() */
     crv_logger logger;       /* default: silent */
     crv_allocator allocator; /* default: the C library's */
-    crv_parallel parallel;   /* default: OpenMP, or one thread where built without */
-    int32_t threads; /* OpenMP only: 1 to 1024, or 0 (default) for what OpenMP chooses */
-    uint32_t isa_mask; /* bits 1u << crv_isa that may be used; the fastest of them that
-                          is available is, and CRV_ISA_SCALAR where none is. 0 (default):
-                          all */
+    crv_parallel parallel;   /* default: the library's own threads */
+    /* The library's own threads: 1 to 1024. 0 (default): OpenMP's choice, at most four
+     * for each processor; without OpenMP one for each. */
+    int32_t threads;
+    /* Bits 1u << crv_isa that may be used. The fastest of them that is available is used,
+     * or CRV_ISA_SCALAR. 0 (default): all. */
+    uint32_t isa_mask;
     /* CPU only. 0 (default): hbao, gtao, bitmask, alchemy and vo use deinterleaved
-     * kernels: up to 4 times as fast; samples move by a part of a pixel's footprint, to
-     * the same error. 1: samples are exactly where the scalar code has them. */
+     * kernels: up to 4 times as fast, to the same error. 1: reference sampling, exactly
+     * as in the scalar code. Choose 1 to compare with papers or between instruction
+     * sets. */
     int32_t exact;
     crv_device device;    /* default CRV_DEVICE_CPU */
     int32_t device_index; /* Vulkan: as crv_vulkan_device_info() counts; default 0 */
@@ -62,22 +65,22 @@ typedef struct crv_context_desc {
  * Thread-safe. */
 CRV_API crv_status crv_context_desc_init(crv_context_desc *desc, size_t struct_size);
 
-/*
- * Hooks and a device: there is no global state. A context and all that was made with it
- * serve one thread at a time; different contexts are independent.
- */
+/* Hooks and a device. A context and everything made with it serve one thread at a time.
+ * Different contexts are independent: there is no global state. */
 typedef struct crv_context crv_context;
 
-/* desc NULL: the defaults. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY; UNSUPPORTED where
- * there is no such device, it lacks what is needed, or the library was built without
- * Vulkan; DEVICE where its driver fails. Thread-safe. */
+/* Makes a context in *out; the caller destroys it. desc NULL: the defaults. Errors:
+ * INVALID_ARGUMENT, OUT_OF_MEMORY; UNSUPPORTED if there is no such device, it lacks what
+ * is needed, or the library was built without Vulkan; DEVICE if its driver fails.
+ * Thread-safe. */
 CRV_API crv_status crv_context_create(const crv_context_desc *desc, crv_context **out);
 
-/* Everything made with the context must have been destroyed. NULL does nothing. */
+/* Destroy everything made with the context first; else an error is logged, and the
+ * context stays. NULL does nothing. */
 CRV_API void crv_context_destroy(crv_context *context);
 
-/* The instruction set that the context's plans use on the CPU, and its G-buffers on any
- * device; CRV_ISA_SCALAR for NULL. */
+/* The instruction set of the context's plans on the CPU, and of its G-buffers on any
+ * device. CRV_ISA_SCALAR for NULL. */
 CRV_API crv_isa crv_context_isa(const crv_context *context);
 
 /* A device for crv_context_desc. */
@@ -88,10 +91,10 @@ typedef struct crv_device_info {
     char missing[128]; /* why Crevice cannot use it; "": it can */
 } crv_device_info;
 
-/* Describes the Vulkan device `index`, from 0 on. logger NULL: silent. Errors:
- * INVALID_ARGUMENT where info is NULL or there are not so many devices (not logged);
- * UNSUPPORTED with a line where there is no Vulkan, at build or at run time; DEVICE where
- * a driver fails; OUT_OF_MEMORY. Thread-safe. */
+/* Describes the Vulkan device `index`; the first is 0. logger NULL: silent. Errors:
+ * INVALID_ARGUMENT if info is NULL or there are fewer devices (not logged); UNSUPPORTED
+ * with a line if there is no Vulkan, at build or at run time; DEVICE if a driver fails;
+ * OUT_OF_MEMORY. Thread-safe. */
 CRV_API crv_status crv_vulkan_device_info(int32_t index, crv_device_info *info,
                                           const crv_logger *logger);
 
@@ -99,14 +102,17 @@ CRV_API crv_status crv_vulkan_device_info(int32_t index, crv_device_info *info,
 typedef struct crv_plan crv_plan;
 
 /*
- * Checks the options, builds sample patterns and takes the memory that a run needs: 4
- * bytes for each pixel of the result, as much again for the filter, and as much again for
- * each depth layer with 0.5 to 16 MiB of tables where sampling points may move (see
- * crv_context_desc.exact); with the G-buffer's own, less than 48 bytes a pixel, 2 MiB of
- * tables apart. On a Vulkan device images and a staging buffer come on top, in its
- * memory. Options and desc are copied. *out must be destroyed before its context.
- * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY; on a Vulkan device UNSUPPORTED where it cannot
- * compute this, and DEVICE where its driver fails.
+ * Makes a plan in *out: checks the options, builds sample patterns and takes the memory
+ * of all runs. options and desc are copied. The caller destroys the plan, before its
+ * context.
+ *
+ * Memory: 4 bytes for each pixel of the result, 4 more with a filter. Deinterleaved
+ * kernels take 4 more for each depth layer, and 0.5 to 16 MiB of tables. Together with
+ * the G-buffer that is below 48 bytes a pixel, or 2 MiB of tables above it. A Vulkan
+ * device holds images and a staging buffer as well.
+ *
+ * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY; on a Vulkan device UNSUPPORTED if it cannot
+ * compute this, and DEVICE if its driver fails.
  */
 CRV_API crv_status crv_plan_create(crv_context *context, const crv_options *options,
                                    const crv_gbuffer_desc *desc, crv_plan **out);
@@ -129,24 +135,24 @@ CRV_API crv_status crv_plan_set_options(crv_plan *plan, const crv_options *optio
 
 /*
  * Computes the accessibility of every pixel inside the guard band, filtered if the
- * options say so: 1 is open, 0 fully occluded, background is 1; always finite and in [0,
- * 1]. result: one channel, width - guard_left - guard_right by height - guard_top -
- * guard_bottom. Returns when it is done. Allocates nothing; the same input gives the same
- * bits for any number of threads. A plan may run on any G-buffer made with an equal desc
- * and the same context.
- * Errors: INVALID_ARGUMENT; NOT_READY where the G-buffer lacks its camera or a depth
- * layer; on a Vulkan device UNSUPPORTED where the G-buffer has a height field or implicit
- * surfaces that the options ask for, and DEVICE where its driver fails.
+ * options say so. 1 is open, 0 fully occluded, background is 1. All values are finite and
+ * in [0, 1].
+ *
+ * gbuffer: made with the same context and an equal desc. result: one channel, width -
+ * guard_left - guard_right by height - guard_top - guard_bottom. Returns when it is done.
+ * Allocates nothing. The same input gives the same bits for any number of threads.
+ *
+ * Errors: INVALID_ARGUMENT; NOT_READY if the G-buffer lacks its camera or a depth layer;
+ * on a Vulkan device UNSUPPORTED if the G-buffer has a height field or an implicit
+ * surface that the options ask for, and DEVICE if its driver fails.
  */
 CRV_API crv_status crv_plan_run(crv_plan *plan, crv_gbuffer *gbuffer,
                                 const crv_image *result);
 
-/*
- * Applies the plan's filter to an accessibility image of the result's size, such as one
- * that was computed elsewhere; copies it where the plan has no filter. Values that are
- * not finite are taken as 1. input and result may be the same image. Allocates nothing.
- * Errors: as crv_plan_run().
- */
+/* Applies the plan's filter to an accessibility image of the result's size, for example
+ * one that was computed elsewhere; copies it if the plan has no filter. Values that are
+ * not finite count as 1. input and result may be the same image. Allocates nothing.
+ * Errors: as crv_plan_run(). */
 CRV_API crv_status crv_plan_filter(crv_plan *plan, crv_gbuffer *gbuffer,
                                    const crv_const_image *input, const crv_image *result);
 
@@ -172,23 +178,27 @@ CRV_API crv_status crv_plan_device_times(const crv_plan *plan, crv_device_time *
 #define CRV_MAX_SUBSAMPLES 16
 
 /*
- * Accessibility for a frame with several depth samples in each pixel, for compositing
- * before they are resolved (McGuire et al. 2011). A plan gives a pixel one value, that of
- * the one depth in its G-buffer; here every sample gathers from its pixel and the four
- * beside it, weighted by how near their depth is to the sample's own: a sample of the
- * floor at a column's edge takes the floor's accessibility. Where none is near, the
- * nearest in depth counts alone. Background samples, and samples without a surface
- * around, get 1.
+ * Accessibility of each subpixel sample, for compositing before samples are resolved
+ * (McGuire et al. 2011). A plan computes one value for each pixel, at the depth in the
+ * G-buffer. Here every sample gathers from its pixel and the four beside it. The weight
+ * of each falls with the difference in depth, so that a sample of the floor at a column's
+ * edge takes the accessibility of the floor. If all of them differ by depth_range or
+ * more, the least different counts alone. Background samples, and samples that have no
+ * surface around, get 1.
  *
- * gbuffer: the frame, with camera and depth layer 0. accessibility: one channel, as
- * crv_plan_run() wrote it; values that are not finite are taken as 1. sample_depth: 2 to
- * CRV_MAX_SUBSAMPLES channels, one for each sample, of the same size, which is that
- * inside the guard band. format: what these depths are, NULL planar; radial ones are
- * taken along the pixel's centre. depth_range: depth difference at which a neighbour
- * stops counting, > 0, scene units; filter_depth times the radius of the options fits.
- * result: as many channels as sample_depth; may not share memory with accessibility, but
- * may be sample_depth itself. Allocates nothing; the same bits for any number of threads.
- * Errors: INVALID_ARGUMENT; NOT_READY where the G-buffer lacks its camera or layer 0.
+ * gbuffer: the frame, with camera and depth layer 0.
+ * accessibility: one channel, the size inside the guard band, as crv_plan_run() wrote it.
+ *     Values that are not finite count as 1.
+ * sample_depth: the same size; 2 to CRV_MAX_SUBSAMPLES channels, one for each sample.
+ * format: of sample_depth; NULL: planar. Radial depth is taken along the ray of the
+ *     pixel's centre.
+ * depth_range: difference in depth from which a neighbour does not count, > 0, scene
+ *     units. A good choice is filter_depth * radius of the options.
+ * result: as many channels as sample_depth. It may be sample_depth itself, but may not
+ *     share memory with accessibility.
+ *
+ * Allocates nothing. The same bits for any number of threads. Errors: INVALID_ARGUMENT;
+ * NOT_READY if the G-buffer lacks its camera or layer 0.
  */
 CRV_API crv_status crv_multisample_gather(crv_gbuffer *gbuffer,
                                           const crv_const_image *accessibility,

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Crevice: ambient occlusion from depth and normal buffers.
+ * Crevice: ambient occlusion from depth and normal buffers. The short way:
  *
- * Give it the depth of a frame (planar, radial, or straight from a depth buffer), normals
- * if there are any, and the camera; get accessibility back, a float for each pixel: 1 is
- * open, 0 is fully occluded. It sees what the depth layers hold and nothing else: what is
- * hidden behind the first surface or lies outside the image does not occlude unless a
- * further layer or a guard band brings it. It renders nothing, loads no files, and keeps
- * no global state.
+ *     crv_camera camera = crv_camera_perspective(width, height, vfov_rad);
+ *     crv_const_image depth_image = crv_const_image_packed(depth, width, height, 1);
+ *     crv_image result = crv_image_packed(accessibility, width, height, 1);
+ *     crv_ao(&depth_image, NULL, &camera, NULL, &result, NULL);
+ *
+ * depth is planar, in scene units (crv_depth_convert() for others). accessibility gets a
+ * float for each pixel: 1 is open, 0 is fully occluded. The long way takes memory once
+ * for all frames:
  *
  *     crv_context *context = NULL;
  *     crv_gbuffer *gbuffer = NULL;
@@ -23,17 +25,17 @@
  *     crv_plan_create(context, &options, &desc, &plan);
  *
  *     // for each frame
- *     crv_camera camera = crv_camera_perspective(width, height, vfov_rad);
- *     crv_image depth_image = crv_image_packed(depth, width, height, 1);
- *     crv_image result = crv_image_packed(accessibility, width, height, 1);
  *     crv_gbuffer_set_camera(gbuffer, &camera);
- *     crv_gbuffer_set_depth(gbuffer, 0, &depth_image, NULL);  // planar linear depth
+ *     crv_gbuffer_set_depth(gbuffer, 0, &depth_image, NULL);
  *     crv_plan_run(plan, gbuffer, &result);
  *
- * Every call returns a crv_status; check it. The reason for a failure goes to the
- * context's logger as one line. Memory is taken when objects are made and when a
- * G-buffer is first given a kind of data, never in crv_plan_run(). A context and what was
- * made with it serve one thread at a time; inside, work runs in parallel.
+ * Only what the depth layers show occludes. Surfaces that are hidden behind the first
+ * one, or outside of the image, do not, unless a further layer or a guard band has them.
+ *
+ * Every call returns a crv_status; check it. The logger gets the reason for a failure as
+ * one line. Memory is taken when objects are made and when a G-buffer first gets a kind
+ * of data, never in crv_plan_run(). A context and everything made with it serve one
+ * thread at a time; a call works in parallel inside. There is no global state.
  */
 #ifndef CREVICE_H
 #define CREVICE_H

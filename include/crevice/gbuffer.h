@@ -3,9 +3,9 @@
  * gbuffer.h: what an estimator sees of the scene: camera, one to four depth layers,
  * normals.
  *
- * Depth and normals are converted once, on entry, to planar linear depth and unit
- * view-space normals. A depth that is NaN, infinite, zero or negative is background: it
- * gets accessibility 1 and never occludes. So does everything outside the buffers.
+ * Depth and normals are converted once, on entry, to planar depth and unit view-space
+ * normals. A depth that is NaN, infinite, zero or negative is background: it gets
+ * accessibility 1 and never occludes. Nothing outside the buffers occludes either.
  */
 #ifndef CREVICE_GBUFFER_H
 #define CREVICE_GBUFFER_H
@@ -109,11 +109,12 @@ typedef struct crv_gbuffer_desc {
     int32_t height;     /* px */
     int32_t layers;     /* 1 to CRV_MAX_LAYERS; layer 0 is what the camera sees */
     crv_layers layer_kind; /* default CRV_LAYERS_SURFACES */
-    /* Guard band: so many px on each side are read as occluders but get no result. 0 or
-     * more; the rectangle that is left must not be empty. */
+    /* Guard band: pixels on each side that occlude but get no result. 0 or more; the
+     * rectangle that is left must not be empty. Without a guard band the border of the
+     * result is too bright. crv_guard_px() computes how wide it should be. Default 0. */
     int32_t guard_left, guard_top, guard_right, guard_bottom;
-    /* Position of the result's first pixel in the whole picture, any value: keeps the
-     * noise pattern continuous where a picture is computed in pieces. Default 0, 0. */
+    /* Position of the result's first pixel in the whole picture, any value. It keeps the
+     * noise pattern continuous if a picture is computed in tiles. Default 0, 0. */
     int32_t origin_x, origin_y;
 } crv_gbuffer_desc;
 
@@ -122,18 +123,15 @@ typedef struct crv_gbuffer_desc {
 CRV_API crv_status crv_gbuffer_desc_init(crv_gbuffer_desc *desc, size_t struct_size,
                                          int32_t width, int32_t height);
 
-/* Whether all sizes and kinds are the same, so that plans and G-buffers made with one
- * serve for the other. Neither may be NULL. Thread-safe. */
+/* Whether plans made with one fit G-buffers made with the other: all sizes and kinds are
+ * the same. False for NULL or what is not initialised. Thread-safe. */
 CRV_API bool crv_gbuffer_desc_equal(const crv_gbuffer_desc *a, const crv_gbuffer_desc *b);
 
-/*
- * Owns converted buffers; made once and filled anew for each frame, in this order:
- * camera, depth of every layer, normals. One thread at a time, the one that uses its
- * context.
- */
+/* Owns converted buffers. Make it once, and fill it for each frame in this order: camera,
+ * depth of every layer, normals. Only the thread that uses its context may use it. */
 typedef struct crv_gbuffer crv_gbuffer;
 
-/* Makes an empty G-buffer in *out. It must be destroyed before its context. Errors:
+/* Makes an empty G-buffer in *out; the caller destroys it, before its context. Errors:
  * INVALID_ARGUMENT (logged), OUT_OF_MEMORY. */
 CRV_API crv_status crv_gbuffer_create(struct crv_context *context,
                                       const crv_gbuffer_desc *desc, crv_gbuffer **out);
@@ -158,11 +156,11 @@ CRV_API crv_status crv_gbuffer_set_depth(crv_gbuffer *gbuffer, int32_t layer,
                                          const crv_depth_format *format);
 
 /*
- * Takes the normals of layer 0. image: three channels, the G-buffer's size; read during
- * the call only; need not be of unit length. NULL, or no call at all: normals are
- * reconstructed from depth. Pixels whose normal is zero or not finite are reconstructed
- * one by one; normals that face away from the camera are turned or bent towards it.
- * Errors: NOT_READY, INVALID_ARGUMENT.
+ * Takes the normals of layer 0. image: three channels, the G-buffer's size, any length
+ * but zero; read during the call only. NULL, or no call at all: normals are reconstructed
+ * from depth, as they are in pixels whose normal is zero or not finite. Normals that face
+ * away from the camera are turned or bent towards it. Errors: NOT_READY,
+ * INVALID_ARGUMENT.
  */
 CRV_API crv_status crv_gbuffer_set_normals(crv_gbuffer *gbuffer,
                                            const crv_const_image *image,
@@ -176,24 +174,22 @@ CRV_API crv_status crv_gbuffer_set_normals(crv_gbuffer *gbuffer,
 typedef float (*crv_implicit_fn)(void *user, const float point_view[3],
                                  float gradient[3]);
 
-/* Adds an implicit surface to the frame, for the methods that test points (vao,
- * containment; see crv_characteristic). function NULL removes it. user is handed to it;
- * not owned. Takes the place of a height field. Forgotten with the next camera. Plans on
- * a Vulkan device refuse it (crv_plan_run()). Errors: NOT_READY, INVALID_ARGUMENT. */
+/* Adds an implicit surface to the frame, for the methods that test points: vao and
+ * containment (crv_characteristic). It replaces a height field and is forgotten with the
+ * next camera. function NULL removes it. user is passed to it, and not owned. CPU only:
+ * crv_plan_run() refuses it on a Vulkan device. Errors: NOT_READY, INVALID_ARGUMENT. */
 CRV_API crv_status crv_gbuffer_set_implicit(crv_gbuffer *gbuffer,
                                             crv_implicit_fn function, void *user);
 
 /* What lies beyond the edge of a height map. */
 typedef enum crv_wrap { CRV_WRAP_REPEAT = 0, CRV_WRAP_CLAMP = 1 } crv_wrap;
 
-/*
- * Relief that the mesh does not have: a height field over the tangent plane of every
- * pixel. Images are the G-buffer's size but for height, which may have any; they are read
- * during the call only.
- */
+/* Relief that the mesh does not have: a height field over the tangent plane of every
+ * pixel. uv, tangent and bitangent have the G-buffer's size, height may have any. All are
+ * read during the call only. */
 typedef struct crv_height_field {
     /* 2 channels: texture coordinates, u to the right and v down over the map, 0 to 1;
-     * NaN where a pixel has none. */
+     * NaN if a pixel has none. */
     crv_const_image uv;
     /* 3 channels each, view space: change of the point with u and with v, scene units. */
     crv_const_image tangent, bitangent;
@@ -203,9 +199,9 @@ typedef struct crv_height_field {
     crv_wrap wrap;
 } crv_height_field;
 
-/* Adds a height field to the frame, for vao and containment; memory for it is taken at
- * the first call. NULL removes it. Takes the place of an implicit surface. Forgotten with
- * the next camera. Plans on a Vulkan device refuse it (crv_plan_run()). Errors:
+/* Adds a height field to the frame, for vao and containment. It replaces an implicit
+ * surface and is forgotten with the next camera. field NULL removes it. The first call
+ * takes memory. CPU only: crv_plan_run() refuses it on a Vulkan device. Errors:
  * NOT_READY, INVALID_ARGUMENT, OUT_OF_MEMORY. */
 CRV_API crv_status crv_gbuffer_set_height_field(crv_gbuffer *gbuffer,
                                                 const crv_height_field *field);

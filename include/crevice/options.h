@@ -2,10 +2,9 @@
 /*
  * options.h: methods, filters, and every number that steers them.
  *
- * One table describes the options; defaults, checks, the command line and its help all
- * come from it. The registries of methods and filters can be walked, so that a host's
- * user interface needs no list of its own. Everything here is thread-safe: the tables are
- * constant.
+ * One table describes the options. Defaults, checks, the command line and its help come
+ * from it. A host's user interface can list options, methods and filters by the functions
+ * below. Everything here is thread-safe: the tables are constant.
  */
 #ifndef CREVICE_OPTIONS_H
 #define CREVICE_OPTIONS_H
@@ -16,15 +15,15 @@
 extern "C" {
 #endif
 
-/* The weight of the hemisphere that a method integrates over, w a direction, n the
- * normal. V = 1 where the ray is blocked, W the falloff. */
+/* How a method weights the hemisphere. w: direction, n: normal, V: 1 if the ray is
+ * blocked, else 0, W: falloff. */
 typedef enum crv_weighting {
     CRV_WEIGHTING_UNIFORM = 0, /* A = 1 - 1/(2 pi) Int V W dw */
     CRV_WEIGHTING_COSINE = 1   /* A = 1 - 1/pi Int V W (n.w) dw */
 } crv_weighting;
 
-/* How the weight W of an occluder falls with its distance r < radius R; q = r / R. From R
- * on, W = 0. */
+/* How the weight W of an occluder falls with its distance r. R: radius, q = r / R. W is 0
+ * from R on. */
 typedef enum crv_falloff {
     CRV_FALLOFF_NONE = 0,        /* 1 */
     CRV_FALLOFF_LINEAR = 1,      /* 1 - q */
@@ -36,18 +35,18 @@ typedef enum crv_falloff {
 
 /* How horizon methods apply the falloff. */
 typedef enum crv_attenuation {
-    /* Each occluder weighs the elevations that it is first to block: the exact integral
-     * of W. */
+    /* Each occluder weights the elevations that it is the first to block: the exact
+     * integral of W. */
     CRV_ATTENUATION_SLAB = 0,
-    /* The whole slice weighs as its highest occluder does: eq. 3 of Bavoil, Sainz,
-     * Dimitrov 2008, read literally. */
+    /* The highest occluder weights its whole slice: eq. 3 of Bavoil, Sainz, Dimitrov
+     * 2008, read literally. */
     CRV_ATTENUATION_HORIZON = 1
 } crv_attenuation;
 
 /* How the samples of a direction are spaced over the radius. */
 typedef enum crv_spacing {
     CRV_SPACING_EQUAL = 0, /* equal steps, as in the papers */
-    /* With the square of the step: dense near the point, where most occlusion begins. */
+    /* With the square of the step: dense near the point, where most occluders are. */
     CRV_SPACING_QUADRATIC = 1
 } crv_spacing;
 
@@ -80,14 +79,14 @@ typedef enum crv_normaliser {
 
 /* What tells inside from outside, for the methods that test points. */
 typedef enum crv_characteristic {
-    /* Outside both the depth buffer and the G-buffer's height field or implicit surface,
-     * where it has one. */
+    /* The depth buffer and, if the G-buffer has one, the height field or implicit
+     * surface: outside is outside of both. */
     CRV_CHARACTERISTIC_PRODUCT = 0,
     CRV_CHARACTERISTIC_DEPTH = 1, /* the depth buffer alone */
     CRV_CHARACTERISTIC_FIELD = 2  /* the height field or implicit surface alone */
 } crv_characteristic;
 
-/* A method, one of the registry. Static storage. */
+/* A method of the registry. Static storage. */
 typedef struct crv_method {
     const char *name;  /* "hbao" */
     const char *title; /* "Horizon-based ambient occlusion" */
@@ -97,7 +96,7 @@ typedef struct crv_method {
                                    those that every method reads are not listed */
 } crv_method;
 
-/* A filter, one of the registry. Static storage. */
+/* A filter of the registry. Static storage. */
 typedef struct crv_filter {
     const char *name;  /* "bilateral13" */
     const char *title; /* what it does, a line */
@@ -105,7 +104,8 @@ typedef struct crv_filter {
     const char *const *options; /* keys of the options that it reads, NULL-terminated */
 } crv_filter;
 
-/* Sets of options that each method brings, named for what they cost. */
+/* Sets of options of each method. Start with medium; low for real time on small GPUs,
+ * high and ultra for stills. */
 typedef enum crv_preset {
     CRV_PRESET_LOW = 0,
     CRV_PRESET_MEDIUM = 1, /* the defaults of crv_options_init() */
@@ -128,9 +128,9 @@ CRV_API const crv_filter *crv_filter_at(int32_t index);
 CRV_API const crv_filter *crv_filter_find(const char *name);
 
 /*
- * Everything that steers a run. Begin with crv_options_init(); a zeroed struct is not
- * valid. The option table holds default, range and help of each. Bool options are int32_t
- * 0 or 1. crv_option_applies() tells which method reads what.
+ * All options of a run. Begin with crv_options_init(): a zeroed struct is not valid. The
+ * option table (crv_option_at()) has unit, range, default and help of each. Options of
+ * yes or no are int32_t, 0 or 1. crv_option_applies() tells which options a method reads.
  */
 typedef struct crv_options {
     size_t struct_size; /* set by crv_options_init() */
@@ -154,11 +154,11 @@ typedef struct crv_options {
     crv_thickness thickness_rule; /* bitmask */
     int32_t normal_rays;          /* Nn, per direction */
     int32_t growing_sphere; /* hsao deflects only towards what is nearer than the step */
-    /* How far behind its front a surface counts as solid where no layer tells its back,
-     * in radii, along the view axis; 0: without end. Things that are seen from in front
-     * are rarely as thick as what they hide. */
+    /* Thickness of surfaces whose back no layer shows, along the view axis, in radii. 0:
+     * infinite. Default 0.5: visible objects are usually thinner than the space behind
+     * them. */
     float thickness;
-    /* hbao samples the projected radius no farther than this; 0: no cap. */
+    /* hbao takes no samples farther than this from the pixel; 0: no limit. */
     float max_radius_px;
 
     int32_t samples;    /* n: points, lines or pipes */
@@ -173,20 +173,20 @@ typedef struct crv_options {
     float intensity; /* A' = max(0, 1 - intensity (1 - A))^contrast */
     float contrast;
     int32_t noise_size; /* edge of the noise tile, px */
-    int32_t seed;       /* another noise tile and sample pattern */
+    int32_t seed;       /* different noise and sample pattern, same expected error */
 
     /* Depth deviation at which a filter tap stops counting, in radii. */
     float filter_depth;
-    /* Measure that deviation from the surface's slope; 0: from the centre's depth, as the
-     * papers do. */
+    /* 1: that deviation is measured from the plane of the surface. 0: from the depth of
+     * the centre, as in the papers. */
     int32_t filter_slope;
-    /* Angle between normals, degrees, at which a filter tap stops counting; 180: taps
-     * count whatever their normal. */
+    /* Angle between normals, degrees, at which a filter tap stops counting. 180: normals
+     * do not count. */
     float filter_normal;
 
-    /* Number of the frame: another draw of the noise for each, whose mean over frames
-     * converges fast. Count it up if temporal antialiasing averages frames; leave it at
-     * 0, the default, if nothing does, or the noise flickers. */
+    /* Number of the frame: different noise for each, same expected error. Count it up if
+     * temporal antialiasing averages frames: the mean converges fast. Leave it at 0, the
+     * default, if nothing averages them, or the noise flickers. */
     int32_t noise_index;
 } crv_options;
 
@@ -196,12 +196,13 @@ typedef struct crv_options {
 CRV_API crv_status crv_options_init(crv_options *options, size_t struct_size,
                                     const char *method);
 
-/* Sets what a preset of options->method sets, and leaves the rest. Sets no radius.
- * CRV_ERROR_INVALID_ARGUMENT: options is NULL or not initialised, or no such preset. */
+/* Sets the options of a preset of options->method, and no others; never the radius.
+ * Errors: INVALID_ARGUMENT if options is NULL or not initialised, or there is no such
+ * preset. */
 CRV_API crv_status crv_options_preset(crv_options *options, crv_preset preset);
 
-/* What that is, as "key=value key=value". NULL where an argument is unknown. Static
- * storage. */
+/* The options of a preset, as "key=value key=value". NULL if an argument is unknown.
+ * Static storage. */
 CRV_API const char *crv_preset_text(const crv_method *method, crv_preset preset);
 
 typedef enum crv_option_type {
@@ -215,7 +216,7 @@ typedef enum crv_option_type {
 typedef struct crv_option {
     const char *key; /* "max_radius_px": the name of the struct's member */
     crv_option_type type;
-    const char *unit;               /* "px"; "" where there is none */
+    const char *unit;               /* "px"; "" if there is none */
     double default_value, min, max; /* inclusive; a choice's are its values */
     const char *const *choices;     /* NULL-terminated, choices only; else NULL */
     const char *help;               /* one line */
@@ -231,14 +232,15 @@ CRV_API const crv_option *crv_option_find(const char *key);
 CRV_API int crv_option_applies(const crv_option *option, const crv_method *method,
                                const crv_filter *filter);
 
-/* Sets an option from text, `method` and `filter` ("none" for none) included. Numbers as
- * strtod reads them, bool as 0/1/true/false/on/off/yes/no, choices by name. An unknown
- * key or name is logged with the nearest known one. Errors: INVALID_ARGUMENT, options
- * untouched. */
+/* Sets an option from text. `method` and `filter` ("none" for none) are keys, too.
+ * Numbers have a decimal point in every locale; bool is 0/1/true/false/on/off/yes/no;
+ * choices are given by name. For an unknown key or name the log has the nearest known
+ * one. Errors, with options untouched: INVALID_ARGUMENT; UNSUPPORTED if a struct of an
+ * earlier size does not have the option. */
 CRV_API crv_status crv_options_set(crv_options *options, const char *key,
                                    const char *value, const crv_logger *logger);
 
-/* The value of an option; choices and bools as numbers. NaN where an argument is NULL. */
+/* The value of an option; choices and bools as numbers. NaN if an argument is NULL. */
 CRV_API double crv_options_get(const crv_options *options, const crv_option *option);
 
 /* Checks every value against the table (INVALID_ARGUMENT, with a line that names the

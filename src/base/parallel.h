@@ -4,9 +4,15 @@
 
 #include "crevice/base.h"
 
-/* Calls task(data, i) for every i in [0, count) through the host's hook, through OpenMP
- * with `threads` threads (0: its own choice), or on this thread. */
+#include <stdbool.h>
+
+/* Calls task(data, i) for every i in [0, count) through the host's hook, or with
+ * `threads` threads (0: a sensible number) of OpenMP or, without it, of POSIX; else on
+ * this thread. */
 void crv__parallel_for(const crv_parallel *hook, int32_t threads, uint32_t count,
                        void (*task)(void *data, uint32_t index), void *data);
+
+/* Whether OpenMP was built in. */
+bool crv__parallel_is_openmp(void);
 
 #endif

@@ -20,13 +20,17 @@ crv_status crv_gbuffer_desc_init(crv_gbuffer_desc *desc, size_t struct_size,
     return crv__struct_init(&DESC, desc, struct_size, &defaults);
 }
 
-bool crv_gbuffer_desc_equal(const crv_gbuffer_desc *a, const crv_gbuffer_desc *b)
+bool crv_gbuffer_desc_equal(const crv_gbuffer_desc *first, const crv_gbuffer_desc *second)
 {
-    return a->width == b->width && a->height == b->height && a->layers == b->layers
-           && a->layer_kind == b->layer_kind && a->guard_left == b->guard_left
-           && a->guard_top == b->guard_top && a->guard_right == b->guard_right
-           && a->guard_bottom == b->guard_bottom && a->origin_x == b->origin_x
-           && a->origin_y == b->origin_y;
+    crv_gbuffer_desc a = {.layers = 1}, b = {.layers = 1};
+    if (crv__struct_take(&DESC, NULL, first, &a)
+        || crv__struct_take(&DESC, NULL, second, &b))
+        return false;
+    return a.width == b.width && a.height == b.height && a.layers == b.layers
+           && a.layer_kind == b.layer_kind && a.guard_left == b.guard_left
+           && a.guard_top == b.guard_top && a.guard_right == b.guard_right
+           && a.guard_bottom == b.guard_bottom && a.origin_x == b.origin_x
+           && a.origin_y == b.origin_y;
 }
 
 crv_status crv__gbuffer_desc_take(const crv_logger *logger, const crv_gbuffer_desc *from,

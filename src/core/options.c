@@ -54,20 +54,27 @@ typedef struct row {
 
 static const row TABLE[] = {
     FLOAT(radius, "scene units", 1, 1e-9, 1e9, EVERY_METHOD,
-          "radius of influence: occluders farther away do not count"),
+          "radius of influence: occluders farther away do not count; try a tenth of the "
+          "largest thing in view"),
     CHOICE(falloff, CRV_FALLOFF_LINEAR, FALLOFFS, SOME_METHODS,
-           "how the weight of an occluder falls with its distance"),
+           "how the weight of an occluder falls with its distance; none shows a border "
+           "at the "
+           "radius"),
     FLOAT(tau, "1/radius", 3, 0, 1e3, SOME_METHODS, "decay of the exponential falloff"),
     FLOAT(u, "radius", 0.1, 1e-3, 1, SOME_METHODS,
           "distance at which the alchemy falloff peaks"),
-    INT(directions, "", 8, 1, 256, SOME_METHODS, "Nd: directions around a pixel"),
+    INT(directions, "", 8, 1, 256, SOME_METHODS,
+        "Nd: directions around a pixel; above 16 rarely helps with a filter"),
     INT(steps, "", 8, 1, 256, SOME_METHODS,
-        "Ns: samples in each direction; containment: points tested on the way of each"),
+        "Ns: samples in each direction; more for large radii, above 16 rarely helps; "
+        "containment: points tested on the way to each"),
     CHOICE(spacing, CRV_SPACING_QUADRATIC, SPACINGS, SOME_METHODS,
            "of the steps over the radius: equal, as in the papers, or quadratic, denser "
            "near the point"),
-    FLOAT(bias_deg, "degrees", 0, 0, 89, SOME_METHODS,
-          "ignores occluders that rise less than this over the surface"),
+    FLOAT(
+        bias_deg, "degrees", 0, 0, 89, SOME_METHODS,
+        "ignores occluders that rise less than this over the surface; 5 to 15 hides the "
+        "facets of coarse meshes"),
     CHOICE(attenuation, CRV_ATTENUATION_SLAB, ATTENUATIONS, SOME_METHODS,
            "slab: each occluder weighs the elevations that it is first to block; "
            "horizon: the "
@@ -81,15 +88,15 @@ static const row TABLE[] = {
         "Nn: rays above the horizon (hsao) or over the hemisphere (raymarch) for each "
         "direction"),
     BOOL(growing_sphere, 0, SOME_METHODS,
-         "deflect only towards occluders that are nearer than the step has come"),
+         "deflect only towards occluders that are nearer than the length of the march"),
     FLOAT(thickness, "radius", 0.5, 0, 1e3, SOME_METHODS,
-          "how far behind its front a surface is solid; 0: without end"),
+          "how far behind its front a surface is solid; less for grass, 0: without end"),
     CHOICE(thickness_rule, CRV_THICKNESS_WIDTH, THICKNESSES, SOME_METHODS,
            "how far behind its front a surface is solid: width, as far as it extends in "
            "sight and no more than it is wide; run, the first alone, faster; constant, "
            "`thickness`; layers, up to the next layer"),
     INT(samples, "", 12, 1, 4096, SOME_METHODS,
-        "n: points, lines or pipes; containment begins with 24, ssao with 16"),
+        "n: points, lines or pipes; twice as many cut the noise by a third"),
     INT(bands, "", 1, 1, 16, SOME_METHODS,
         "levels of detail: small projected radii take 1/bands of the samples, and so on"),
     FLOAT(band_px, "px", 96, 1, CRV_MAX_SIZE, SOME_METHODS,
@@ -107,18 +114,22 @@ static const row TABLE[] = {
         "surface, or both"),
     BOOL(rescale, 0, SOME_METHODS, "double the result, so that a flat wall is white"),
     FLOAT(max_radius_px, "px", 0, 0, CRV_MAX_SIZE, SOME_METHODS,
-          "samples no farther than this from the pixel; 0: no limit"),
+          "samples no farther than this from the pixel, to bound the cost of close-ups; "
+          "0: no "
+          "limit"),
     FLOAT(intensity, "", 1, 0, 100, EVERY_METHOD,
-          "strength s in max(0, 1 - s (1 - A))^contrast"),
+          "strength s in max(0, 1 - s (1 - A))^contrast; 1 is what the method computes"),
     FLOAT(contrast, "", 1, 1e-2, 100, EVERY_METHOD,
           "exponent k in max(0, 1 - intensity (1 - A))^k"),
     INT(noise_size, "px", 4, 1, 64, EVERY_METHOD,
-        "edge of the tile of rotations and jitters; box4 suits 4"),
-    INT(seed, "", 0, 0, 2147483647, EVERY_METHOD, "another noise tile"),
+        "edge of the tile of rotations and jitters; 4 for box4, 1 without a filter"),
+    INT(seed, "", 0, 0, 2147483647, EVERY_METHOD, "different noise, same expected error"),
     INT(noise_index, "", 0, 0, 2147483647, EVERY_METHOD,
         "frame number for temporal antialiasing: other noise for each; else 0"),
-    FLOAT(filter_depth, "radius", 0.05, 1e-4, 1e3, SOME_FILTERS,
-          "depth deviation at which a filter tap stops counting"),
+    FLOAT(
+        filter_depth, "radius", 0.05, 1e-4, 1e3, SOME_FILTERS,
+        "depth deviation at which a filter tap stops counting; less keeps more edges and "
+        "more noise"),
     BOOL(filter_slope, 1, SOME_FILTERS,
          "measure that deviation from the surface's slope; off: from the centre's depth"),
     FLOAT(filter_normal, "degrees", 25, 1, 180, SOME_FILTERS,

@@ -5,13 +5,16 @@
  * Volumetric Ambient Occlusion for Real-Time Rendering and Games, IEEE CG&A 2010.
  *
  * A ray that meets the surface at most once within the radius is free up to r exactly
- * where its point at r lies outside. With mu = 1 - W, A = 1/pi Int Int mu'(r) I(P + w r)
- * cos dr dw  ~  1/n Sum I(P + r_i w_i),   (eq. 4, 5) directions w_i with cosine density,
- * r_i = mu^-1(xi_i).
+ * if its point at r lies outside. With mu = 1 - W,
  *
- * Where a ray may meet it more often, or what it enters is thin, the point at r says too
- * little: with `steps` > 1 points on the way there are tested as well, and the ray is
- * free where all of them are outside. That is the visibility which eq. 4 replaces; with 1
+ *     A = 1/pi Int Int mu'(r) I(P + w r) cos dr dw                             (eq. 4)
+ *       ~ 1/n Sum I(P + r_i w_i),                                              (eq. 5)
+ *
+ * directions w_i with cosine density, r_i = mu^-1(xi_i).
+ *
+ * If a ray may meet the surface more often, or what it enters is thin, the point at r is
+ * not enough. With `steps` > 1, points between P and it are tested as well, and the ray
+ * is free if all of them are outside. That is the visibility which eq. 4 replaces; with 1
  * the estimator is the paper's.
  *
  * mu is monotone for every falloff but `alchemy`, whose W first rises from 0 to 1 (mu

@@ -5,9 +5,11 @@
  * Occlusion, SIGGRAPH 2008 talks.
  *
  * The hemisphere over P is cut into slices by directions theta in the image. In each
- * slice the depth buffer is walked outwards and the horizon h, the largest elevation seen
- * so far, is kept; everything between the tangent t and h is blocked. With elevations
- * measured from the image plane, A = 1 - 1/(2 pi) Int (sin h - sin t) W dtheta (eq. 3)
+ * slice a march over the depth buffer keeps the horizon h, the largest elevation so far;
+ * everything between the tangent t and h is blocked. With elevations measured from the
+ * image plane,
+ *
+ *     A = 1 - 1/(2 pi) Int (sin h - sin t) W dtheta                            (eq. 3)
  *
  * Samples are snapped to texel centres, because depth belongs to texel centres only; that
  * turns them a little out of their slice. On a tilted surface the tangent changes quickly

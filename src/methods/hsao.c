@@ -4,10 +4,11 @@
  * Rouslan Dimitrov, Louis Bavoil, Miguel Sainz: Horizon-Split Ambient Occlusion, 2008.
  *
  * The hemisphere around n is cut into Nd slices. In each, a ray that starts in the
- * tangent plane is deflected step by step towards the surface points that it runs below
- * of (Figure 4); the height H of its tip is the horizon. Below H all is blocked, which
- * integrates in closed form to H^2 (eq. 6); above H, Nn rays look for what the horizon
- * cannot know (eq. 7). A = 1 - 1/Nd Sum [H^2 + (1 - H^2)/Nn Sum V]
+ * tangent plane is deflected step by step towards the surface points above it (Figure 4);
+ * the height H of its tip is the horizon. Below H all is blocked, which integrates in
+ * closed form to H^2 (eq. 6). Above H, Nn rays find what the horizon misses (eq. 7):
+ *
+ *     A = 1 - 1/Nd Sum [H^2 + (1 - H^2)/Nn Sum V]
  *
  * The paper stratifies the rays from 0 to 1 - O_T, so that its first lies below the
  * horizon, and its patches can sum past 1; here z^2 is stratified between H^2 and 1, so
