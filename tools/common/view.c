@@ -93,8 +93,8 @@ static const arg buffer_rows[] = {
      .unit = "px",
      ARG_INTO(ARG_INT, view_settings, guard_px),
      .computed = "a tenth of the height",
-     .help = "width of the band beyond each border of the picture that occludes; with 0 "
-             "occlusion fades at the borders"},
+     .help = "width of the guard band: a margin beyond each border of the picture that "
+             "occludes but gets no result; with 0 occlusion fades at the borders"},
 };
 const arg_table view_buffers = ARG_TABLE("Buffers", buffer_rows);
 

@@ -39,7 +39,7 @@ static const arg file_rows[] = {
      .value = "A-B[xSTEP]",
      ARG_INTO(ARG_TEXT, ao_settings, frames),
      .help = "frames to compute, as 1-240, 1,3,10-20x2 or -5--1; one that fails is left "
-             "out and told at the end"},
+             "out and listed at the end"},
     {.name = "--crop",
      ARG_INTO(ARG_FLAG, ao_settings, crop),
      .help = "only the display window gets a result; overscan still occludes"},
@@ -346,12 +346,10 @@ const command command_ao = {
     .summary = "depth and normal passes to ambient occlusion, also for whole shots",
     .synopsis = "IN.exr -o OUT.exr [options]",
     .details =
-        "The result has the frame's data window, overscan included. Without a radius, 5 "
-        "% "
-        "of the view's height at the median depth is taken; a range of frames keeps that "
-        "of its first, and results say how they were made. `crevice help passes` lists "
-        "the passes that are "
-        "known by name.",
+        "The result has the frame's data window, overscan included. Without --radius the "
+        "radius is 5 % of the view's height at the median depth; a range of frames keeps "
+        "that of its first. Metadata of results say how they were made. `crevice help "
+        "passes` lists the passes that are known by name.",
     .tables = tables,
     .library_options = true,
     .examples = examples,

@@ -303,10 +303,10 @@ const command command_render = {
     .summary = "a mesh to a picture of its ambient occlusion",
     .synopsis = "MODEL -o FILE [options]",
     .details =
-        "The mesh is drawn by ray casting, so no GPU is needed. Without a camera it "
-        "is framed by itself; without a radius one is chosen, and told. A height map "
-        "gives it relief that the mesh does not have; the lit pictures take their light "
-        "from it, too, but shadows fall as on the mesh.",
+        "The mesh is drawn by ray casting, so no GPU is needed. Without a camera the "
+        "view is chosen to hold the mesh; without --radius a radius is chosen and "
+        "printed. A height map gives relief that the mesh does not have; lit pictures "
+        "show it, but shadows fall as on the mesh.",
     .tables = tables,
     .library_options = true,
     .method_flag = "--height-map",
