@@ -50,21 +50,24 @@ typedef enum crv_spacing {
     CRV_SPACING_QUADRATIC = 1
 } crv_spacing;
 
-/* bitmask: how far behind its front a surface is solid, at least 0.1 R but for
- * `constant`. A layer behind it ends the body; solid layers alone tell. */
+/* bitmask: thickness of a surface, that is, how far behind its front it is solid. WIDTH
+ * and RUN give at least 0.1 R. A further layer ends the solid in front of it. If layers
+ * are solid, their backs give the thickness, whatever the rule. */
 typedef enum crv_thickness {
-    /* As far as it was seen to extend on the way to it, and no more than its width: the
-     * distance between silhouettes on both sides in the picture. */
+    /* As far as the surface is seen to extend along the slice, but no more than its
+     * width: the distance between the silhouettes on both sides of it in the picture. */
     CRV_THICKNESS_WIDTH = 0,
-    CRV_THICKNESS_RUN = 1,      /* the first alone: no pass for the widths */
+    /* As far as the surface is seen to extend along the slice. Faster: needs no pass for
+     * the widths. */
+    CRV_THICKNESS_RUN = 1,
     CRV_THICKNESS_CONSTANT = 2, /* option `thickness`, as in the paper */
     /* Up to the next layer; option `thickness` behind the last. */
     CRV_THICKNESS_LAYERS = 3
 } crv_thickness;
 
-/* What is taken to lie beyond the buffers' borders. */
+/* What lies beyond the borders of the buffers. */
 typedef enum crv_border {
-    /* The surfaces at the border go on as planes. */
+    /* The surfaces at the border continue as planes. */
     CRV_BORDER_EXTRAPOLATE = 0,
     CRV_BORDER_BACKGROUND = 1 /* nothing */
 } crv_border;
@@ -138,50 +141,57 @@ typedef struct crv_options {
     const crv_method *method; /* default hbao */
     const crv_filter *filter; /* NULL: none. Default bilateral13 */
 
-    float radius; /* R, radius of influence, scene units */
-    crv_falloff falloff;
-    float tau; /* exponential falloff: decay over one radius */
-    float u;   /* alchemy falloff: where it peaks, in radii */
+    /* R, radius of influence, scene units, > 0. Default 1, which seldom fits. */
+    float radius;
+    crv_falloff falloff; /* default LINEAR */
+    float tau;           /* exponential falloff: decay over one radius. Default 3 */
+    float u;             /* alchemy falloff: its peak, in radii. Default 0.1 */
 
-    int32_t directions;  /* Nd */
-    int32_t steps;       /* Ns, per direction; containment: points tested on a ray */
-    crv_spacing spacing; /* hbao: of its steps */
-    /* Raises hbao's tangent: occluders that rise less over the surface are ignored. */
+    int32_t directions; /* Nd. Default 8; bitmask 4, hsao 7 */
+    /* Ns, per direction; containment: points tested on a ray. Default 8; hsao 12,
+     * containment 5. */
+    int32_t steps;
+    crv_spacing spacing; /* hbao, gtao, bitmask. Default QUADRATIC */
+    /* hbao: raises the tangent: lower occluders are ignored. Degrees, default 0. */
     float bias_deg;
-    crv_attenuation attenuation;
-    crv_weighting weighting;      /* gtao, bitmask: which integral they estimate */
-    crv_border border;            /* gtao, bitmask */
-    crv_thickness thickness_rule; /* bitmask */
-    int32_t normal_rays;          /* Nn, per direction */
-    int32_t growing_sphere; /* hsao deflects only towards what is nearer than the step */
+    crv_attenuation attenuation;  /* hbao, gtao, hsao. Default SLAB */
+    crv_weighting weighting;      /* gtao, bitmask: their integral. Default COSINE */
+    crv_border border;            /* gtao, bitmask. Default EXTRAPOLATE */
+    crv_thickness thickness_rule; /* bitmask. Default WIDTH */
+    int32_t normal_rays;          /* Nn, per direction: hsao, default 1; raymarch, 4 */
+    /* hsao: 1 deflects only towards surfaces that are nearer than the march has come.
+     * Default 0. */
+    int32_t growing_sphere;
     /* Thickness of surfaces whose back no layer shows, along the view axis, in radii. 0:
      * infinite. Default 0.5: visible objects are usually thinner than the space behind
      * them. */
     float thickness;
-    /* hbao takes no samples farther than this from the pixel; 0: no limit. */
+    /* hbao, gtao and bitmask take no samples farther than this from the pixel. Default 0:
+     * no limit. */
     float max_radius_px;
 
-    int32_t samples;    /* n: points, lines or pipes */
-    int32_t bands;      /* alchemy: levels of detail of the sample count */
-    float band_px;      /* alchemy: projected radius from which all samples are taken */
-    float alchemy_bias; /* alchemy: beta of eq. 10 */
-    float alchemy_eps;  /* alchemy: eps of eq. 10, in radii squared */
-    crv_normaliser normaliser;         /* vao */
-    crv_characteristic characteristic; /* vao, containment */
-    int32_t rescale;                   /* ssao: doubles A, so that a wall is white */
+    int32_t samples; /* n: points, lines or pipes. Default 12; containment 24, ssao 16 */
+    int32_t bands;   /* alchemy: levels of detail of the sample count. Default 1 */
+    /* alchemy: projected radius from which all samples are taken, px. Default 96. */
+    float band_px;
+    float alchemy_bias; /* alchemy: beta of eq. 10. Default 1e-4 */
+    float alchemy_eps;  /* alchemy: eps of eq. 10, in radii squared. Default 1e-4 */
+    crv_normaliser normaliser;         /* vao. Default WEIGHTED */
+    crv_characteristic characteristic; /* vao, containment. Default PRODUCT */
+    int32_t rescale; /* ssao: 1 doubles A, so that a wall is white. Default 0 */
 
-    float intensity; /* A' = max(0, 1 - intensity (1 - A))^contrast */
-    float contrast;
-    int32_t noise_size; /* edge of the noise tile, px */
-    int32_t seed;       /* different noise and sample pattern, same expected error */
+    float intensity;    /* A' = max(0, 1 - intensity (1 - A))^contrast. Default 1 */
+    float contrast;     /* default 1 */
+    int32_t noise_size; /* edge of the noise tile, px. Default 4 */
+    int32_t seed; /* different noise and sample pattern, same expected error. Default 0 */
 
-    /* Depth deviation at which a filter tap stops counting, in radii. */
+    /* Depth deviation at which a filter tap stops counting, in radii. Default 0.05. */
     float filter_depth;
     /* 1: that deviation is measured from the plane of the surface. 0: from the depth of
-     * the centre, as in the papers. */
+     * the centre, as in the papers. Default 1. */
     int32_t filter_slope;
     /* Angle between normals, degrees, at which a filter tap stops counting. 180: normals
-     * do not count. */
+     * do not count. Default 25. */
     float filter_normal;
 
     /* Number of the frame: different noise for each, same expected error. Count it up if

@@ -58,8 +58,7 @@ static const row TABLE[] = {
           "largest thing in view"),
     CHOICE(falloff, CRV_FALLOFF_LINEAR, FALLOFFS, SOME_METHODS,
            "how the weight of an occluder falls with its distance; none shows a border "
-           "at the "
-           "radius"),
+           "at the radius"),
     FLOAT(tau, "1/radius", 3, 0, 1e3, SOME_METHODS, "decay of the exponential falloff"),
     FLOAT(u, "radius", 0.1, 1e-3, 1, SOME_METHODS,
           "distance at which the alchemy falloff peaks"),
@@ -76,14 +75,13 @@ static const row TABLE[] = {
         "ignores occluders that rise less than this over the surface; 5 to 15 hides the "
         "facets of coarse meshes"),
     CHOICE(attenuation, CRV_ATTENUATION_SLAB, ATTENUATIONS, SOME_METHODS,
-           "slab: each occluder weighs the elevations that it is first to block; "
-           "horizon: the "
-           "highest occluder weighs its whole slice"),
+           "slab: each occluder weights the elevations that it is the first to block; "
+           "horizon: the highest occluder weights its whole slice"),
     CHOICE(weighting, CRV_WEIGHTING_COSINE, WEIGHTINGS, SOME_METHODS,
            "of the hemisphere: cosine as in renderers' AO passes, or uniform as in hbao"),
     CHOICE(border, CRV_BORDER_EXTRAPOLATE, BORDERS, SOME_METHODS,
-           "beyond the picture: extrapolate, surfaces go on as planes; background, there "
-           "is nothing"),
+           "what lies beyond the picture: extrapolate, surfaces continue as planes; "
+           "background, nothing"),
     INT(normal_rays, "", 1, 0, 64, SOME_METHODS,
         "Nn: rays above the horizon (hsao) or over the hemisphere (raymarch) for each "
         "direction"),
@@ -92,8 +90,8 @@ static const row TABLE[] = {
     FLOAT(thickness, "radius", 0.5, 0, 1e3, SOME_METHODS,
           "how far behind its front a surface is solid; less for grass, 0: without end"),
     CHOICE(thickness_rule, CRV_THICKNESS_WIDTH, THICKNESSES, SOME_METHODS,
-           "how far behind its front a surface is solid: width, as far as it extends in "
-           "sight and no more than it is wide; run, the first alone, faster; constant, "
+           "how far behind its front a surface is solid: width, as far as it is seen to "
+           "extend, at most its width; run, without that limit, faster; constant, "
            "`thickness`; layers, up to the next layer"),
     INT(samples, "", 12, 1, 4096, SOME_METHODS,
         "n: points, lines or pipes; twice as many cut the noise by a third"),
@@ -103,7 +101,8 @@ static const row TABLE[] = {
           "projected radius from which on all samples are taken"),
     FLOAT(
         alchemy_bias, "", 1e-4, 0, 1, SOME_METHODS,
-        "beta: how far an occluder must rise over the surface, as a share of the depth"),
+        "beta: height over the surface below which occluders are ignored, as a share of "
+        "the depth"),
     FLOAT(alchemy_eps, "radius^2", 1e-4, 1e-9, 1, SOME_METHODS,
           "eps: keeps the nearest occluders from dividing by zero"),
     CHOICE(normaliser, CRV_NORMALISER_WEIGHTED, NORMALISERS, SOME_METHODS,
@@ -115,8 +114,7 @@ static const row TABLE[] = {
     BOOL(rescale, 0, SOME_METHODS, "double the result, so that a flat wall is white"),
     FLOAT(max_radius_px, "px", 0, 0, CRV_MAX_SIZE, SOME_METHODS,
           "samples no farther than this from the pixel, to bound the cost of close-ups; "
-          "0: no "
-          "limit"),
+          "0: no limit"),
     FLOAT(intensity, "", 1, 0, 100, EVERY_METHOD,
           "strength s in max(0, 1 - s (1 - A))^contrast; 1 is what the method computes"),
     FLOAT(contrast, "", 1, 1e-2, 100, EVERY_METHOD,
@@ -125,15 +123,18 @@ static const row TABLE[] = {
         "edge of the tile of rotations and jitters; 4 for box4, 1 without a filter"),
     INT(seed, "", 0, 0, 2147483647, EVERY_METHOD, "different noise, same expected error"),
     INT(noise_index, "", 0, 0, 2147483647, EVERY_METHOD,
-        "frame number for temporal antialiasing: other noise for each; else 0"),
+        "frame number, if temporal antialiasing averages frames: different noise for "
+        "each; else 0"),
     FLOAT(
         filter_depth, "radius", 0.05, 1e-4, 1e3, SOME_FILTERS,
         "depth deviation at which a filter tap stops counting; less keeps more edges and "
         "more noise"),
     BOOL(filter_slope, 1, SOME_FILTERS,
-         "measure that deviation from the surface's slope; off: from the centre's depth"),
+         "measure depth deviation from the plane of the surface; off: from the centre's "
+         "depth, as in the papers"),
     FLOAT(filter_normal, "degrees", 25, 1, 180, SOME_FILTERS,
-          "angle between normals at which a filter tap stops counting; 180: no limit"),
+          "angle between normals at which a filter tap stops counting; 180: normals do "
+          "not count"),
 };
 
 enum { ROW_COUNT = sizeof TABLE / sizeof TABLE[0] };
