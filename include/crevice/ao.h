@@ -33,10 +33,11 @@ CRV_API crv_status crv_ao(const crv_const_image *depth, const crv_const_image *n
 
 /*
  * Width of the guard band, in px on each side, with which the border of the result is as
- * good as its middle: the radius of influence projected at nearest_depth, the least
- * planar depth in view (scene units, > 0; not read for an orthographic camera), up to
- * options->max_radius_px if the method reads it, and the support of the filter. At most
- * CRV_MAX_SIZE. 0 if an argument is NULL or not valid. Thread-safe.
+ * good as its middle. A guard band is a margin of the G-buffer that occludes but gets no
+ * result (crv_gbuffer_desc). nearest_depth: the least planar depth in view, scene units,
+ * > 0; not read for an orthographic camera. The width is that of the radius, projected at
+ * nearest_depth, and of the filter; options->max_radius_px limits the first if the method
+ * reads it. At most CRV_MAX_SIZE. 0 if an argument is NULL or not valid. Thread-safe.
  */
 CRV_API int32_t crv_guard_px(const crv_options *options, const crv_camera *camera,
                              float nearest_depth);

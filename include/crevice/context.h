@@ -121,15 +121,18 @@ CRV_API crv_status crv_plan_create(crv_context *context, const crv_options *opti
 CRV_API void crv_plan_destroy(crv_plan *plan);
 
 /*
- * Gives the plan new options, as if it had been made with them, without taking memory:
- * what a slider or an animation changes. The result has the same bits as that of a new
- * plan. A new plan is needed for another method; for a filter where there was none, none
- * where there was one, or, with a guard band, one of another radius; for another
- * noise_size; and for directions, steps and samples that take more memory than at first,
- * as a larger or an odd number may; on a Vulkan device for all that
- * crv_vulkan_pass_set_options() calls fixed. Then the plan stays as it is, and the line
- * in the log names the option. Errors: INVALID_ARGUMENT; UNSUPPORTED if it takes a new
- * plan.
+ * Gives the plan new options without taking memory, for a slider or an animation. The
+ * result has the same bits as that of a new plan. These changes need a new plan:
+ *
+ *   - another method or noise_size;
+ *   - a filter instead of none, or none instead of a filter;
+ *   - with a guard band, a filter of another radius;
+ *   - directions, steps or samples that take more memory than at first, as a larger or an
+ *     odd number may;
+ *   - on a Vulkan device, all that crv_vulkan_pass_set_options() calls fixed.
+ *
+ * Errors, with the plan unchanged: INVALID_ARGUMENT; UNSUPPORTED, with a line that names
+ * the option, if a new plan is needed.
  */
 CRV_API crv_status crv_plan_set_options(crv_plan *plan, const crv_options *options);
 

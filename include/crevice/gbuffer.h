@@ -39,7 +39,9 @@ typedef enum crv_depth_encoding {
     CRV_DEPTH_LOGARITHMIC = 8
 } crv_depth_encoding;
 
-/* Fill it with crv_depth_format_planar() or by hand. */
+/* Fill it with crv_depth_format_planar(), with crv_depth_format_from_projection() for a
+ * depth buffer, or by hand. Reversed with an infinite far plane: CRV_DEPTH_REVERSED,
+ * z_near of the projection, z_far INFINITY. */
 typedef struct crv_depth_format {
     crv_depth_encoding encoding;
     /* Scene units. All but planar, radial and disparity have a far plane, at which there
@@ -48,8 +50,8 @@ typedef struct crv_depth_format {
         z_near;  /* > 0 for hardware, reversed and GL of a perspective camera, else any */
     float z_far; /* > z_near and > 0; INFINITY for an infinite projection: hardware,
                     reversed and GL of a perspective camera only */
-    /* Planar and radial: this depth and all beyond is background. > 0, or INFINITY where
-     * only non-finite depth is. Some renderers write 1e10. */
+    /* Planar and radial: this depth and all beyond is background. > 0; INFINITY if only
+     * non-finite depth is background. Some renderers write 1e10. */
     float background;
 } crv_depth_format;
 
