@@ -77,7 +77,7 @@ static float accessibility(const crv__frame *f, int32_t x, int32_t y)
     for (int32_t k = 0; k < p->directions; k++) {
         const crv__vec2 direction = crv__direction(f, noise, k);
         const float step_x = direction.x * radius_x, step_y = -direction.y * radius_y;
-        slice walk = {0, 0, 0};
+        slice state = {0, 0, 0};
         for (int32_t i = 0; i < p->steps; i++) {
             float t = ((float)i + 0.5f + 0.5f * noise->beta) / (float)p->steps;
             if (p->spacing == CRV_SPACING_QUADRATIC)
@@ -95,11 +95,12 @@ static float accessibility(const crv__frame *f, int32_t x, int32_t y)
             for (int32_t layer = 0; layer < p->layers; layer++) {
                 float ds = *crv__plane_at(&f->depth[layer], u, v);
                 if (ds < INFINITY)
-                    add_sample(&walk, p, P, n, ray, offset, crv__unproject(p, u, v, ds));
+                    add_sample(&state, p, P, n, ray, offset, crv__unproject(p, u, v, ds));
             }
         }
-        occlusion += p->attenuation == CRV_ATTENUATION_SLAB ? walk.occlusion
-                                                            : walk.horizon * walk.weight;
+        occlusion += p->attenuation == CRV_ATTENUATION_SLAB
+                         ? state.occlusion
+                         : state.horizon * state.weight;
     }
     return 1 - occlusion / (float)p->directions;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The di way through a filter: blocks of two rows of a vector each, whose windows lie
+ * The fast path of a filter: blocks of two rows of a vector each, whose windows lie
  * within the input. What the rows read at one offset is loaded once for both, and
  * nothing is tested: the depth of background is infinite, which brings any weight to 0.
  */
