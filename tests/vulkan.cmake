@@ -13,9 +13,10 @@ add_test(NAME test_vulkan_agreement COMMAND test_vulkan_agreement --seed 1
     --cases ${crevice_vulkan_cases})
 
 # The label "once": what depends on shaders and driver more than on who compiled the C code,
-# and is run with one compiler (./check).
+# and is run with one compiler. The label "long": most of it is an emulated GPU that compiles
+# shaders for a minute; ./check leaves it to ./check --all.
 
-# Other ways to the same picture: half floats, depth taken apart.
+# Other ways to the same picture: half floats, depth deinterleaved.
 add_test(NAME vulkan_half_deinterleaved COMMAND test_vulkan_agreement --seed 1 --half 1 --layout 1
     --cases ${crevice_vulkan_cases})
 
@@ -28,14 +29,14 @@ endforeach()
 set_tests_properties(test_vulkan_agreement PROPERTIES
     LABELS vulkan TIMEOUT 600 SKIP_RETURN_CODE 77)
 set_tests_properties(vulkan_half_deinterleaved ${crevice_vulkan_tests} PROPERTIES
-    LABELS "vulkan;once" TIMEOUT 600 SKIP_RETURN_CODE 77)
+    LABELS "vulkan;once;long" TIMEOUT 600 SKIP_RETURN_CODE 77)
 
 # vulkan_validated(NAME FEATURES PROGRAM...): under the validation layer.
 function(vulkan_validated name features)
     add_test(NAME vulkan_validation_${name} COMMAND sh
         ${CMAKE_CURRENT_SOURCE_DIR}/validated.sh ${features} ${ARGN})
     set_tests_properties(vulkan_validation_${name} PROPERTIES
-        LABELS "vulkan;once" TIMEOUT 600 SKIP_RETURN_CODE 77)
+        LABELS "vulkan;once;long" TIMEOUT 600 SKIP_RETURN_CODE 77)
 endfunction()
 
 # Plans, with synchronisation and best practices; and with the shaders instrumented, each

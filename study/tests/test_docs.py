@@ -40,7 +40,9 @@ def test_courtyard_and_reference_tables(report, tmp_path):
     assert papers.count("| 2008a, ") == 14
 
 
-def test_meshes_and_performance_are_written(tool, folder, tmp_path):
+def test_meshes_and_performance_are_written(tool, folder, tmp_path, monkeypatch):
+    # The large scenes would come on top of the one that is named, and take minutes.
+    monkeypatch.delenv("CREVICE_SHARED", raising=False)
     pages = copy_of_pages(tmp_path)
     done = study(tool, folder / "docs", "builtin:corner", "--quick", "--docs", "meshes", "--docs",
                  "performance", "--pages", str(pages), "--size", "128x72")
