@@ -210,5 +210,6 @@ configure()
     if [ -x /usr/bin/python3 ]; then
         fresh+=(-DPython3_EXECUTABLE=/usr/bin/python3)
     fi
-    cmake --preset "$preset" "${fresh[@]}" --log-level=WARNING "$@" >/dev/null
+    cmake --preset "$preset" "${fresh[@]}" --log-level=WARNING \
+        --no-warn-unused-cli "$@" >/dev/null
 }

@@ -152,7 +152,7 @@ static void rasterise(const engine *e, const double p[3], double pixel[2], doubl
     double clip[4];
     for (int r = 0; r < 4; r++)
         clip[r] = e->m[r][0] * p[0] + e->m[r][1] * p[1] + e->m[r][2] * p[2] + e->m[r][3];
-    const double x = clip[0] / clip[3], y = clip[1] / clip[3] * (e->y_down ? -1 : 1);
+    const double x = clip[0] / clip[3], y = clip[1] / clip[3] * (e->y_down != 0 ? -1 : 1);
     const double z = clip[2] / clip[3];
     pixel[0] = (x + 1) / 2 * IMAGE_WIDTH;
     pixel[1] = (1 - y) / 2 * IMAGE_HEIGHT;

@@ -119,14 +119,16 @@ static void test_conventions(void **state)
     (void)state;
     for (size_t i = 0; i < io_convention_count; i++) {
         const io_convention *row = &io_conventions[i];
-        const char *form = row->is_normal ? "Beauty.%s.%c" : "Beauty.%s.R";
         const char *path = support_path("row.exr");
         io_passes_request request = default_request();
         char text[4][128];
         const char *names[4] = {text[0], text[1], text[2], text[3]};
         const float value[4] = {1, 1, 1, 1}, *planes[] = {value, value, value, value};
         io_frame frame;
-        snprintf(text[0], sizeof text[0], row->is_normal ? "Beauty.Z" : form, row->name);
+        if (row->is_normal)
+            snprintf(text[0], sizeof text[0], "Beauty.Z");
+        else
+            snprintf(text[0], sizeof text[0], "Beauty.%s.R", row->name);
         for (int c = 0; c < 3; c++)
             snprintf(text[1 + c], sizeof text[1], "Beauty.%s.%c",
                      row->is_normal ? row->name : "N", "RGB"[c]);
