@@ -119,14 +119,17 @@ CRV__INLINE crv__lanes_texel crv__lanes_slice_texel(const crv__params *p,
     if (p->spacing == CRV_SPACING_QUADRATIC)
         spaced = spaced * spaced;
     const vf t = vf_max(spaced * s->length_px, one);
-    texel.u = vi_floor(vf_of(at->x) + half + t * s->step_x);
-    texel.v = vi_floor(vf_set((float)at->y + 0.5f) + t * s->step_y);
+    /* Lanes without a surface or beyond every picture stay where integers can follow. */
+    const vf farthest = vf_set((float)(4 * CRV_MAX_SIZE));
+    const vf bounded = vf_min(t, farthest);
+    texel.u = vi_floor(vf_of(at->x) + half + bounded * s->step_x);
+    texel.v = vi_floor(vf_set((float)at->y + 0.5f) + bounded * s->step_y);
     texel.in = at->active;
     texel.beyond = vm_none();
     if (!shape.within) {
         const vm on = vm_and(vi_below(texel.u, vi_set(p->width)),
                              vi_below(texel.v, vi_set(p->height)));
-        const vm there = vm_and(at->active, vf_lt(t, vf_set((float)(4 * CRV_MAX_SIZE))));
+        const vm there = vm_and(at->active, vf_lt(t, farthest));
         texel.in = vm_and(there, on);
         texel.beyond = vm_and(there, vm_not(on));
     }
