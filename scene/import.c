@@ -19,20 +19,9 @@
 #include "gltf.h"
 #include "import_assimp.h"
 #include "internal.h"
+#include "sanitized.h"
 
 #define DEFAULT_TIMEOUT_S 600.0
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)                  \
-    || __has_feature(undefined_behavior_sanitizer)
-#define SANITIZED 1
-#endif
-#endif
-#ifndef SANITIZED
-#define SANITIZED 0
-#endif
 
 /* Bytes that the child may take: what the machine has, unless the caller says less. */
 static uint64_t memory_limit(const scene_limits *limits)

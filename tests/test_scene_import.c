@@ -3,6 +3,7 @@
  * Files on which readers crash, hang or take all memory: each ends as one error line.
  */
 #define _POSIX_C_SOURCE 200809L
+#include "sanitized.h"
 #include "test_scene_support.h"
 
 #include <signal.h>
@@ -50,11 +51,8 @@ static void test_memory(void **state)
     memcpy(text + LINES * size, triangle, sizeof triangle);
     const char *path = write_text("many.obj", text);
     free(text);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    refuse(path, &little, "");
-#else
-    (void)little; /* sanitizers reserve so much that they allow no limit */
-#endif
+    if (!SANITIZED)
+        refuse(path, &little, "");
     scene *s = NULL;
     assert_int_equal(scene_load(path, &s, NULL), 0);
     scene_free(s);

@@ -4,6 +4,7 @@
 #include "interrupt.h"
 
 #include <signal.h>
+#include <stdatomic.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -13,13 +14,15 @@ static const int held[] = {SIGINT, SIGTERM, SIGHUP};
 enum { HELD_COUNT = sizeof held / sizeof held[0] };
 
 static struct sigaction former[HELD_COUNT], former_alarm;
-static volatile sig_atomic_t caught, grace;
+static volatile sig_atomic_t grace;
+/* The signal, 0: none. Every thread may ask; caught_at is written before it. */
+static atomic_int caught;
 static struct timespec caught_at;
 
 /* Everything that it calls may be called in a handler (POSIX, 2.4.3). */
 static void end_now(int number)
 {
-    const int ending = caught != 0 ? (int)caught : number;
+    const int ending = caught != 0 ? caught : number;
     signal(ending, SIG_DFL);
     raise(ending);
 }
@@ -72,5 +75,5 @@ void interrupt_release(void)
     alarm(0);
     sigaction(SIGALRM, &former_alarm, NULL);
     if (caught != 0)
-        raise((int)caught);
+        raise(caught);
 }
