@@ -10,10 +10,14 @@ set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 
-# Where Wine finds the compiler's own libraries (OpenMP's among them) and ours.
+# Runs a program under Wine, which finds the compiler's own libraries (OpenMP's among them)
+# and ours. A script, because a list of folders between semicolons is a list to CMake, too.
 execute_process(COMMAND ${CMAKE_C_COMPILER} -print-file-name=libgomp-1.dll
     OUTPUT_VARIABLE runtime OUTPUT_STRIP_TRAILING_WHITESPACE)
 get_filename_component(runtime "${runtime}" DIRECTORY)
-set(CMAKE_CROSSCOMPILING_EMULATOR env WINEDEBUG=-all
-    "WINEPATH=${runtime}$<SEMICOLON>/usr/x86_64-w64-mingw32/lib$<SEMICOLON>${CMAKE_BINARY_DIR}/src"
-    wine)
+file(CONFIGURE OUTPUT "${CMAKE_BINARY_DIR}/run-under-wine" CONTENT [[#!/bin/sh
+export WINEDEBUG=-all
+export WINEPATH="@runtime@;/usr/x86_64-w64-mingw32/lib;@CMAKE_BINARY_DIR@/src"
+exec wine "$@"
+]] @ONLY)
+set(CMAKE_CROSSCOMPILING_EMULATOR sh "${CMAKE_BINARY_DIR}/run-under-wine")
