@@ -11,6 +11,11 @@ crevice_test(test_tool_args
     SOURCES test_tool_args.c ${tool_dir}/frames.c LIBS crevice_common)
 target_include_directories(test_tool_args PRIVATE ${tool_dir} ${PROJECT_SOURCE_DIR}/tools)
 
+crevice_test(test_tool_camera
+    SOURCES test_tool_camera.c ${tool_dir}/ao_camera.c LIBS crevice_common)
+target_compile_definitions(test_tool_camera PRIVATE _XOPEN_SOURCE=700)
+target_include_directories(test_tool_camera PRIVATE ${tool_dir} ${PROJECT_SOURCE_DIR}/tools)
+
 # Each script gets the tool and a folder of its own to write in.
 function(tool_test name)
     add_test(NAME ${name} COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/${name}.sh

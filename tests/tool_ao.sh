@@ -117,6 +117,31 @@ cmp -s hfov.pfm lens.pfm || fail "--lens and --hfov differ"
 bad 2 'contradicts' ao shot.0003.pfm --vfov 60 --lens 18 -o out.exr
 bad 2 '--sensor' ao shot.0003.pfm --vfov 60 --sensor 18 -o out.exr
 
+# Cameras of a shot: that of the frame's number is taken, a zoom has other lenses.
+printf '1 0 0 0 0 0 0 90\n3 0 0 0 0 0 0 60\n' >zoom.chan
+good ao "shot.####.pfm" --frames 1-3x2 --camera zoom.chan --radius 0.1 -o "zoom.####.pfm"
+good ao shot.0003.pfm --vfov 60 --radius 0.1 -o sixty.pfm
+cmp -s zoom.0003.pfm sixty.pfm || fail "the camera of frame 3"
+good ao shot.0003.pfm --camera zoom.chan --radius 0.1 -o named.pfm
+cmp -s named.pfm sixty.pfm || fail "the number in a frame's name"
+bad 1 'no camera for frame 5' ao shot.0005.pfm --camera zoom.chan -o out.exr
+bad 2 'leave out' ao shot.0003.pfm --camera zoom.chan --vfov 60 -o out.exr
+bad 1 'no_such.chan: ' ao shot.0003.pfm --camera no_such.chan -o out.exr
+
+# The camera that gbuffer writes is the one that it used, and the frame's normals agree.
+good gbuffer builtin:courtyard $size -o first.exr --write-camera cam.json
+good gbuffer builtin:courtyard $size -o second.exr --camera cam.json
+cmp -s first.exr second.exr || fail "--write-camera and --camera differ"
+good ao first.exr --camera cam.json --radius 0.4 -o by_camera.exr
+grep -q 'world space, rotation from the camera ' stderr.txt || fail "the camera's rotation"
+good ao first.exr --radius 0.4 -o by_metadata.exr
+good compare --json by_camera.exr by_metadata.exr
+at_most "$(number rmse)" 0.0001 "camera by file and by metadata"
+# Turned otherwise than the normals say.
+printf '{"eye": [0, 0, 0], "target": [3, -2, -1], "vfov": 45}' >turned.json
+good ao first.exr --camera turned.json --radius 0.4 -o turned.exr
+grep -q 'warning: .*turned otherwise' stderr.txt || fail "a camera that contradicts"
+
 # A later frame of another size is told of; so is one that shows nothing.
 pfm shot.0007.pfm 3 2 1 1 1 1 1 1
 good ao "shot.####.pfm" --frames 3-7x4 --vfov 90 -o "mix.####.exr"

@@ -113,6 +113,10 @@ int io__find_cameras(const char *path, const io_image *image,
             memcpy(out[i].camera.world_to_view, identity, sizeof identity);
         }
     }
+    for (int i = 0; i < count && request->pose.given; i++) {
+        out[i].has_rotation = true;
+        memcpy(out[i].to_view, request->pose.to_view, sizeof out[i].to_view);
+    }
     for (int i = 0; i < count; i++)
         out[i].camera = crv_camera_crop(&out[i].camera, image->data_x, image->data_y);
     return count;

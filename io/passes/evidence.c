@@ -269,10 +269,9 @@ static io__reading settle_without_pairs(const court *c, const io__camera_guess *
     io__reading reading = {.id = IO__READ_METADATA};
     memcpy(reading.turn, camera->to_view, sizeof reading.turn);
     if (camera->has_rotation && c->request->normal_space != IO_NORMALS_VIEW) {
-        io__info(
-            c->log, c->path,
-            "normals: taken as world space, rotation from the camera's metadata (too "
-            "few pixels to check)");
+        io__info(c->log, c->path,
+                 "normals: taken as world space, rotation from the camera (too few "
+                 "pixels to check)");
         return reading;
     }
     if (c->request->normal_space != IO_NORMALS_VIEW)
@@ -321,6 +320,11 @@ static void settle_reading(const court *c, trial *t)
         *reading = (io__reading){0};
         return;
     }
+    if (c->request->pose.given && reading->id >= IO__READ_FITTED && !c->request->is_later)
+        io__warn(c->log, c->path,
+                 "the given camera is turned otherwise than normals and depth say; their "
+                 "rotation is used; check the file of the camera and the order of its "
+                 "rotations");
     io__info(c->log, c->path, "normals: %s (deviation %.1f degrees)", reading->text,
              reading->deviation);
 }

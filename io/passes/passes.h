@@ -29,6 +29,14 @@ typedef struct io_passes_remedies {
     const char *camera;       /* to give the field of view, or an orthographic height */
 } io_passes_remedies;
 
+/* How the camera is turned and where it stands, in the world that the file's normals and
+ * positions are in. */
+typedef struct io_pose {
+    bool given;
+    double to_view[9]; /* world to view: rows right, up, back */
+    double eye[3];     /* scene units */
+} io_pose;
+
 /* What the caller knows. Zeroed (with depth_format = crv_depth_format_planar()): find
  * all. */
 typedef struct io_passes_request {
@@ -42,6 +50,7 @@ typedef struct io_passes_request {
     float hfov_rad;   /* > 0: the same with a horizontal field of view */
     float
         view_height; /* > 0: orthographic, height of the display window in scene units */
+    io_pose pose;    /* wins over metadata */
     io_normal_space normal_space;
     bool flip_normals[3]; /* negate x, y, z of the normals as the file has them */
     /* The encoding is the user's word: another that fits better is told, not taken. */

@@ -104,8 +104,8 @@ static void add_axes(reading_list *all, const io__pair_list *pairs, const double
             for (int k = 0; k < 3; k++)
                 axes[3 * k + orders[order][k]] = flips & (1 << k) ? -1 : 1;
             snprintf(text, sizeof text,
-                     "world space with axes %s%c %s%c %s%c, rotation from the camera's "
-                     "metadata",
+                     "world space with axes %s%c %s%c %s%c, rotation from the "
+                     "camera",
                      flips & 1 ? "-" : "", 'x' + orders[order][0], flips & 2 ? "-" : "",
                      'x' + orders[order][1], flips & 4 ? "-" : "",
                      'x' + orders[order][2]);
@@ -167,8 +167,8 @@ io__reading io__choose_reading(const io__pair_list *pairs,
     if (pairs->count == 0)
         return chosen;
     if (request->try_world && request->to_view)
-        add(&all, pairs, IO__READ_METADATA,
-            "world space, rotation from the camera's metadata", request->to_view);
+        add(&all, pairs, IO__READ_METADATA, "world space, rotation from the camera",
+            request->to_view);
     if (request->try_view)
         add_views(&all, pairs);
     if (request->try_world && request->to_view && best_of(&all) > settled)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "view.h"
 
+#include "camera_file.h"
 #include "nearest.h"
 
 #include <math.h>
@@ -30,7 +31,8 @@ static const arg camera_rows[] = {
      .value = "NAME",
      ARG_INTO(ARG_TEXT, view_settings, camera),
      .help = "a camera of the model (glTF, FBX, ...), by its name or its number from 1, "
-             "instead of --eye, --target and --up"},
+             "or a file of one camera, .json or .chan, instead of --eye, --target and "
+             "--up"},
     {.name = "--eye",
      .value = "X,Y,Z",
      .unit = "in scene units",
@@ -210,18 +212,54 @@ static int refuse_camera(const view_settings *s, const scene *model, report *r)
     return EXIT_FAILED;
 }
 
+/* What was told of is the width that is seen. */
+static float vfov_of(const view_settings *s, double hfov_rad)
+{
+    return (float)(2.0
+                   * atan(tan(0.5 * hfov_rad) * (double)s->size.height
+                          / (double)s->size.width));
+}
+
+static int read_camera(const view_settings *s, scene_view *v, report *r)
+{
+    camera_file file;
+    int result = camera_file_load(s->camera, CAMERA_FILE_ZXY, &file, r);
+    if (result != EXIT_DONE)
+        return result;
+    const camera_entry *entry = &file.entries[0];
+    if (file.count > 1 || !entry->has_pose) {
+        report_error(r, "--camera: %s %s; name a file of one camera", s->camera,
+                     file.count > 1 ? "holds several cameras"
+                                    : "does not say where its camera stands");
+        result = EXIT_USAGE;
+    }
+    for (int i = 0; i < 3 && result == EXIT_DONE; i++) {
+        v->eye[i] = entry->eye[i];
+        v->target[i] = entry->target[i];
+        v->up[i] = entry->up[i];
+    }
+    v->projection = entry->view_height > 0.0 ? CRV_ORTHOGRAPHIC : CRV_PERSPECTIVE;
+    if (entry->view_height > 0.0)
+        v->view_height = (float)entry->view_height;
+    if (entry->vfov_rad > 0.0)
+        v->vfov_rad = (float)entry->vfov_rad;
+    if (entry->hfov_rad > 0.0)
+        v->vfov_rad = vfov_of(s, entry->hfov_rad);
+    camera_file_free(&file);
+    return result;
+}
+
 static int choose_camera(const view_settings *s, const scene *model, scene_view *v,
                          report *r)
 {
     const scene_camera *camera = find_camera(model, s->camera);
+    if (!camera && camera_file_is_named(s->camera))
+        return read_camera(s, v, r);
     if (!camera)
         return refuse_camera(s, model, r);
     *v = camera->view;
-    /* What was told of is the width that is seen. */
     if (camera->hfov_rad > 0.0f)
-        v->vfov_rad = (float)(2.0
-                              * atan(tan(0.5 * (double)camera->hfov_rad)
-                                     * (double)s->size.height / (double)s->size.width));
+        v->vfov_rad = vfov_of(s, (double)camera->hfov_rad);
     return EXIT_DONE;
 }
 
@@ -233,8 +271,9 @@ static int choose_view(const view_settings *s, const scene *model, scene_view *v
     const float vfov = (float)((s->vfov_deg.given ? s->vfov_deg.value : 45.0) * degree);
     double lower[3], upper[3];
     scene_frame(model, vfov, (float)s->size.width / (float)s->size.height, v);
-    if (s->camera && choose_camera(s, model, v, r) != EXIT_DONE)
-        return EXIT_FAILED;
+    const int result = s->camera ? choose_camera(s, model, v, r) : EXIT_DONE;
+    if (result != EXIT_DONE)
+        return result;
     scene_bounds(model, lower, upper);
     for (int i = 0; i < 3; i++) {
         const double offset = v->eye[i] - v->target[i];

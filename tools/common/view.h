@@ -15,7 +15,7 @@ typedef struct view_settings {
     arg_size size;
     arg_vector eye, target, up;
     arg_number vfov_deg, ortho;
-    const char *camera; /* of the model, by name or number */
+    const char *camera; /* of the model, by name or number; or a file of cameras */
     arg_int layers, layer_kind, normals_from, guard_px;
     arg_number import_timeout_s;
 } view_settings;

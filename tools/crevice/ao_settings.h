@@ -9,6 +9,8 @@ typedef struct ao_settings {
     common_settings common;
     const char *input, *output, *frames;
     const char *depth, *normal, *normal_flip;
+    const char *camera; /* file of cameras */
+    arg_int camera_order;
     arg_int depth_encoding, normal_space, layer_kind;
     arg_number vfov_deg, hfov_deg, lens_mm, sensor_mm, ortho, z_near, z_far, background;
     arg_int radius_frame;

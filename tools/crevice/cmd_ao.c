@@ -5,6 +5,7 @@
 
 #include "ao_settings.h"
 #include "commands.h"
+#include "common/camera_file.h"
 #include "common/estimate.h"
 #include "shot.h"
 
@@ -126,6 +127,17 @@ static const arg pass_rows[] = {
 static const arg_table pass_table = ARG_TABLE("Passes", pass_rows);
 
 static const arg camera_rows[] = {
+    {.name = "--camera",
+     .value = "FILE",
+     ARG_INTO(ARG_TEXT, ao_settings, camera),
+     .help = "cameras by frame: .json, as `crevice gbuffer` writes it, or Nuke's .chan; "
+             "`crevice help camera` says what may stand in them"},
+    {.name = "--camera-order",
+     .value = "ORDER",
+     .choices = camera_file_orders,
+     .initial = "zxy",
+     ARG_INTO(ARG_CHOICE, ao_settings, camera_order),
+     .help = "the order in which a .chan's rotations are applied"},
     {.name = "--vfov",
      .value = "DEG",
      ARG_RANGE(0.1, 179.0),
@@ -254,6 +266,8 @@ static const char *camera_mistake(const ao_settings *s)
         return "--ortho: contradicts --vfov, --hfov and --lens; give one of them";
     if (s->vfov_deg.given + s->hfov_deg.given + s->lens_mm.given > 1)
         return "--vfov: contradicts --hfov and --lens; give one of them";
+    if (s->camera_order.given && !s->camera)
+        return "--camera-order: is for --camera; add that";
     if (s->sensor_mm.given && !s->lens_mm.given)
         return "--sensor: is for --lens; add that";
     return NULL;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "commands.h"
+#include "help_camera.h"
 #include "help_passes.h"
 #include "help_scenes.h"
 #include "common/help.h"
@@ -77,6 +78,10 @@ static int help(int argc, char **argv, report *r)
         return help_as_pages(argc, argv, r);
     if (strcmp(argv[0], "passes") == 0) {
         help_passes(stdout);
+        return EXIT_DONE;
+    }
+    if (strcmp(argv[0], "camera") == 0) {
+        help_camera(stdout);
         return EXIT_DONE;
     }
     if (strcmp(argv[0], "scenes") == 0) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "shot.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -8,6 +9,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "ao_camera.h"
 #include "common/estimate.h"
 #include "common/output.h"
 #include "common/progress.h"
@@ -21,6 +23,7 @@ typedef struct shot {
     const ao_settings *settings;
     const frame_list *list;
     io_passes_request request;
+    camera_file cameras; /* of --camera */
     crv_options options;
     bool has_radius;   /* the user's, or that of the first frame that shows anything */
     frame_facts first; /* of the first frame */
@@ -29,11 +32,15 @@ typedef struct shot {
 } shot;
 
 typedef struct frame_paths {
+    bool has_number;
+    int32_t number;
     char input[PATH_SIZE], output[PATH_SIZE];
 } frame_paths;
 
 static int name_frame(const ao_settings *s, int32_t frame, frame_paths *paths, report *r)
 {
+    paths->has_number = true;
+    paths->number = frame;
     if (frames_name(s->input, frame, paths->input, sizeof paths->input)
         && frames_name(s->output, frame, paths->output, sizeof paths->output))
         return EXIT_DONE;
@@ -89,6 +96,9 @@ static void describe(const shot *t, char made[IO_MADE_SIZE])
     append_number(made, "lens", &s->lens_mm);
     append_number(made, "sensor", &s->sensor_mm);
     append_number(made, "ortho", &s->ortho);
+    if (s->camera)
+        append(made, " camera=%016" PRIx64 ",%d", t->cameras.checksum,
+               (int)s->camera_order.value);
     append(made, " exact=%d half=%d bits=%d crop=%d", s->common.exact, s->half,
            s->bits.value == 0 ? 8 : 16, s->crop);
 }
@@ -201,9 +211,24 @@ static int write_result(const shot *t, const char *path, const io_frame *frame,
     return output_write(path, ao, &options, r);
 }
 
-static int load(const shot *t, const char *path, io_frame *frame, report *r)
+/* What is known of a frame before it is read. */
+static int request_frame(const shot *t, const frame_paths *paths,
+                         io_passes_request *request, report *r)
 {
-    if (io_frame_load(path, &t->request, frame, &r->logger) != 0)
+    const ao_frame frame = {paths->has_number, paths->number, paths->input};
+    *request = t->request;
+    return t->settings->camera
+               ? ao_camera_set(t->settings, &t->cameras, &frame, request, r)
+               : EXIT_DONE;
+}
+
+static int load(const shot *t, const frame_paths *paths, io_frame *frame, report *r)
+{
+    io_passes_request request;
+    const int result = request_frame(t, paths, &request, r);
+    if (result != EXIT_DONE)
+        return result;
+    if (io_frame_load(paths->input, &request, frame, &r->logger) != 0)
         return EXIT_FAILED;
     if (t->settings->layer_kind.given)
         frame->desc.layer_kind = (crv_layers)t->settings->layer_kind.value;
@@ -220,8 +245,10 @@ static void ask_the_shot(shot *t, report *r)
             t->list, (int32_t)((int64_t)i * (count - 1)
                                / (count - 1 < LOOKED_AT ? count - 1 : LOOKED_AT)));
         io_frame frame = {0};
+        io_passes_request request;
         if (name_frame(t->settings, number, &paths, r) != EXIT_DONE
-            || io_frame_load(paths.input, &t->request, &frame, NULL) != 0)
+            || request_frame(t, &paths, &request, NULL) != EXIT_DONE
+            || io_frame_load(paths.input, &request, &frame, NULL) != 0)
             continue;
         const int reading = frame.reading_decided ? frame.reading : 0;
         io_frame_free(&frame);
@@ -235,9 +262,9 @@ static void ask_the_shot(shot *t, report *r)
 }
 
 /* Loads a frame, and again if the shot reads its normals otherwise. */
-static int load_as_shot(shot *t, const char *path, io_frame *frame, report *r)
+static int load_as_shot(shot *t, const frame_paths *paths, io_frame *frame, report *r)
 {
-    int result = load(t, path, frame, r);
+    int result = load(t, paths, frame, r);
     if (result != EXIT_DONE)
         return result;
     if (frame->reading && frame->reading_decided && !t->request.usual_reading)
@@ -247,7 +274,7 @@ static int load_as_shot(shot *t, const char *path, io_frame *frame, report *r)
         ask_the_shot(t, r);
         if (t->request.usual_reading && t->request.usual_reading != frame->reading) {
             io_frame_free(frame);
-            result = load(t, path, frame, r);
+            result = load(t, paths, frame, r);
         }
     }
     if (result == EXIT_DONE) {
@@ -257,15 +284,16 @@ static int load_as_shot(shot *t, const char *path, io_frame *frame, report *r)
     return result;
 }
 
-static int process(shot *t, const char *input, const char *output, report *r)
+static int process(shot *t, const frame_paths *paths, report *r)
 {
+    const char *input = paths->input, *output = paths->output;
     io_frame frame = {0};
     io_image ao = {0};
     int result = output_check(output, input, r);
     if (result == EXIT_DONE && t->settings->skip_existing && is_done(t, output, r))
         return EXIT_DONE;
     if (result == EXIT_DONE)
-        result = load_as_shot(t, input, &frame, r);
+        result = load_as_shot(t, paths, &frame, r);
     if (result == EXIT_DONE)
         facts_compare(&t->first, &frame, input, r);
     if (result == EXIT_DONE)
@@ -294,7 +322,7 @@ static int find_radius(shot *t, report *r)
         return EXIT_DONE;
     int result = name_frame(t->settings, t->settings->radius_frame.value, &paths, r);
     if (result == EXIT_DONE)
-        result = load_as_shot(t, paths.input, &frame, r);
+        result = load_as_shot(t, &paths, &frame, r);
     if (result == EXIT_DONE)
         result = upload(&t->estimator, &frame, r);
     if (result == EXIT_DONE)
@@ -334,7 +362,7 @@ static int process_list(shot *t, report *r)
         frame_paths paths;
         result = name_frame(t->settings, frames_at(t->list, i), &paths, r);
         if (result == EXIT_DONE)
-            result = process(t, paths.input, paths.output, r);
+            result = process(t, &paths, r);
         if (result == EXIT_FAILED) {
             failed[count++] = frames_at(t->list, i);
             r->errors = 0; /* each failure has its line */
@@ -350,6 +378,21 @@ static int process_list(shot *t, report *r)
     return count ? EXIT_FAILED : result;
 }
 
+static int process_one(shot *t, report *r)
+{
+    const ao_settings *s = t->settings;
+    frame_paths paths = {0};
+    if (strlen(s->input) >= PATH_SIZE || strlen(s->output) >= PATH_SIZE) {
+        report_error(r, "%s: the name is too long; shorten it",
+                     strlen(s->input) >= PATH_SIZE ? "IN" : "-o");
+        return EXIT_USAGE;
+    }
+    memcpy(paths.input, s->input, strlen(s->input) + 1);
+    memcpy(paths.output, s->output, strlen(s->output) + 1);
+    paths.has_number = ao_camera_number(s->input, &paths.number);
+    return process(t, &paths, r);
+}
+
 int shot_run(const ao_settings *settings, const io_passes_request *request,
              const frame_list *list, report *r)
 {
@@ -358,13 +401,18 @@ int shot_run(const ao_settings *settings, const io_passes_request *request,
               .request = *request,
               .options = settings->common.options,
               .has_radius = settings->common.radius_given};
+    int result = settings->camera ? camera_file_load(
+                     settings->camera, settings->camera_order.value, &t.cameras, r)
+                                  : EXIT_DONE;
+    if (result != EXIT_DONE)
+        return result;
     describe(&t, t.made);
-    int result = estimate_open(&t.estimator, &settings->common, r);
+    result = estimate_open(&t.estimator, &settings->common, r);
     if (result == EXIT_DONE)
         result = find_radius(&t, r);
     if (result == EXIT_DONE)
-        result = list ? process_list(&t, r)
-                      : process(&t, settings->input, settings->output, r);
+        result = list ? process_list(&t, r) : process_one(&t, r);
     estimate_close(&t.estimator);
+    camera_file_free(&t.cameras);
     return result;
 }
