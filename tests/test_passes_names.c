@@ -125,13 +125,13 @@ static void test_conventions(void **state)
         const char *names[4] = {text[0], text[1], text[2], text[3]};
         const float value[4] = {1, 1, 1, 1}, *planes[] = {value, value, value, value};
         io_frame frame;
-        if (row->is_normal)
+        if (row->kind == IO_PASS_NORMAL)
             snprintf(text[0], sizeof text[0], "Beauty.Z");
         else
             snprintf(text[0], sizeof text[0], "Beauty.%s.R", row->name);
         for (int c = 0; c < 3; c++)
             snprintf(text[1 + c], sizeof text[1], "Beauty.%s.%c",
-                     row->is_normal ? row->name : "N", "RGB"[c]);
+                     row->kind == IO_PASS_NORMAL ? row->name : "N", "RGB"[c]);
         for (char *c = text[0]; *c; c++)
             *c = (char)tolower((unsigned char)*c);
         request.normal_space = IO_NORMALS_VIEW;

@@ -11,7 +11,7 @@
     }
 #define NORMAL(renderer_, name_, ...)                                                    \
     {                                                                                    \
-        .renderer = renderer_, .name = name_, .is_normal = true, __VA_ARGS__             \
+        .renderer = renderer_, .name = name_, .kind = IO_PASS_NORMAL, __VA_ARGS__        \
     }
 
 const io_convention io_conventions[] = {

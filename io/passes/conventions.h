@@ -6,15 +6,22 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+typedef enum io_pass_kind {
+    IO_PASS_DEPTH,
+    IO_PASS_NORMAL,
+    IO_PASS_POSITION,
+    IO_PASS_AO
+} io_pass_kind;
+
 /* A text that is NULL is not fixed by the renderer: the frame's numbers tell. */
 typedef struct io_convention {
+    io_pass_kind kind;
     const char *renderer;
-    bool is_normal;         /* else depth */
     const char *name;       /* of the layer, as in NAME.Z, PREFIX.NAME.R or NAMEX */
     const char *encoding;   /* what the numbers mean */
     const char *unit;       /* of depth */
     const char *background; /* what stands where nothing is seen */
-    const char *axes;       /* space and handedness of normals */
+    const char *axes;       /* space and handedness of vectors */
 } io_convention;
 
 /* All rows, names of one kind in order of preference. */

@@ -19,4 +19,15 @@ int io__choose_passes(const char *path, const io_image *probed,
                       const io_passes_request *request, io__pass_names *out,
                       const crv_logger *log);
 
+/* Its halves, in this order. */
+int io__choose_depth(const char *path, const io_image *probed,
+                     const io_passes_request *request, io__pass_names *out,
+                     const crv_logger *log);
+int io__choose_normals(const char *path, const io_image *probed,
+                       const io_passes_request *request, io__pass_names *out,
+                       const crv_logger *log);
+
+/* How well a name stands for depth, with its last piece as component or without one. */
+int io__depth_name_rank(const char *name, bool with_component);
+
 #endif

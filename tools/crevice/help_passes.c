@@ -4,11 +4,11 @@
 
 #include "passes/conventions.h"
 
-static void print_rows(FILE *out, bool normals)
+static void print_rows(FILE *out, io_pass_kind kind)
 {
     for (size_t i = 0; i < io_convention_count; i++) {
         const io_convention *row = &io_conventions[i];
-        if (row->is_normal != normals)
+        if (row->kind != kind)
             continue;
         fprintf(out, "  %-38s %s", row->name, row->renderer);
         const char *const facts[] = {row->encoding, row->unit, row->background,
@@ -28,9 +28,9 @@ void help_passes(FILE *out)
                  "case. What a row does not say is found\nfrom the frame: the normals "
                  "that depth implies must agree with those that are given.\n\nDepth, as "
                  "NAME.Z, .V, .R, .T or a channel itself:\n");
-    print_rows(out, false);
+    print_rows(out, IO_PASS_DEPTH);
     fprintf(out, "\nNormals, as NAME.X .Y .Z, .R .G .B or NAMEX NAMEY NAMEZ:\n");
-    print_rows(out, true);
+    print_rows(out, IO_PASS_NORMAL);
     fprintf(out, "\nOther names are taken if they contain \"depth\" or \"normal\"; "
                  "--depth and --normal choose any.\n");
 }

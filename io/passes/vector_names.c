@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: MIT */
+/* vector_names.c: which layers are normals. */
+#include <string.h>
+#include <strings.h>
+
+#include "internal.h"
+#include "names.h"
+#include "pieces.h"
+
+static const char *normal_remedy(const io_passes_request *request)
+{
+    return request->remedies.normal ? request->remedies.normal : "name the normals";
+}
+
+/* Whether the normals are of the depth's part or view layer, and of its eye. Of "right.Z"
+ * the prefix is "right": that is no name for depth, but a view or a layer. */
+static bool is_together(const char *depth, const char *name, const io__pieces *normal)
+{
+    const io__pieces s = io__split_channel(depth, true);
+    const bool named = !s.component[0] || io__depth_name_rank(depth, true) < IO__NO_MATCH;
+    const size_t prefix = named ? s.prefix : s.prefix + s.layer_length + 1;
+    return prefix == normal->prefix && !strncasecmp(name, depth, prefix)
+           && s.view_length == normal->view_length
+           && !strncasecmp(s.view, normal->view, s.view_length);
+}
+
+static int normal_rank(const char *name, size_t length, const char *depth)
+{
+    const io__pieces s = io__split_layer(name, name + length);
+    const int apart = is_together(depth, name, &s) ? 0 : (int)io_convention_count;
+    const int row = io__row_of(&s, IO_PASS_NORMAL);
+    if (row >= 0)
+        return apart + row;
+    return io__contains(s.layer, s.layer_length, "normal") ? IO__LOOKS_LIKE + apart
+                                                           : IO__NO_MATCH;
+}
+
+static void find_normals(const char *path, const io_image *probed,
+                         const io_passes_request *request, io__pass_names *out,
+                         const crv_logger *log)
+{
+    int best_rank = IO__NO_MATCH, matches = 0;
+    for (int32_t i = 0; i < probed->channel_count; i++) {
+        const char *name = probed->channels[i].name;
+        const char *found[3];
+        const size_t length = io__vector_base_length(name);
+        const int rank = length ? normal_rank(name, length, out->depth[0]) : IO__NO_MATCH;
+        if (rank == IO__NO_MATCH || !io__find_components(probed, name, length, found))
+            continue;
+        matches++;
+        if (rank >= best_rank)
+            continue;
+        best_rank = rank;
+        memcpy(out->normal, found, sizeof found);
+        snprintf(out->normal_base, sizeof out->normal_base, "%.*s", (int)length, name);
+    }
+    if (matches && best_rank % IO__LOOKS_LIKE >= (int)io_convention_count)
+        io__warn(log, path, "normals \"%s\" are of another layer than depth \"%s\"; %s",
+                 out->normal_base, out->depth[0], normal_remedy(request));
+    if (matches > 1)
+        io__info(log, path, "several layers may be normals; \"%s\" is used (%s)",
+                 out->normal_base, normal_remedy(request));
+}
+
+int io__choose_normals(const char *path, const io_image *probed,
+                       const io_passes_request *request, io__pass_names *out,
+                       const crv_logger *log)
+{
+    const char *wanted = request->normal;
+    if (!wanted) {
+        find_normals(path, probed, request, out, log);
+        return 0;
+    }
+    if (!strcasecmp(wanted, "none"))
+        return 0;
+    if (io_image_find(probed, wanted))
+        return io__fail(log, path,
+                        "\"%.255s\" is one channel; name normals without their .X .Y .Z, "
+                        "as N of N.X N.Y N.Z",
+                        wanted);
+    if (strlen(wanted) >= IO_NAME_SIZE
+        || !io__find_components(probed, wanted, strlen(wanted), out->normal))
+        return io__fail_channel(log, path, wanted, probed);
+    snprintf(out->normal_base, sizeof out->normal_base, "%s", wanted);
+    return 0;
+}
