@@ -10,11 +10,42 @@ set(crevice_kernel_sources
     cpu/kernels/depth_tmpl.c cpu/kernels/normals_tmpl.c
     cpu/kernels/bilateral13_tmpl.c cpu/kernels/box4_tmpl.c cpu/kernels/gauss5_tmpl.c)
 
+# Which sets: all that the compiler has, the fastest that this machine has, or a list. Scalar
+# code is always there.
+set(CREVICE_ISA all CACHE STRING
+    "Instruction sets to compile kernels for: all, native (the fastest of this machine only), or a list (avx2;sse4)")
+if(CREVICE_ISA STREQUAL "native")
+    execute_process(COMMAND ${CMAKE_C_COMPILER} -march=native -dM -E -x c /dev/null
+        OUTPUT_VARIABLE crevice_native ERROR_QUIET)
+endif()
+
+# crevice_isa_chosen(RESULT SET [FEATURE...]): whether the set is to be compiled.
+function(crevice_isa_chosen result set)
+    set(chosen TRUE)
+    if(CREVICE_ISA STREQUAL "native")
+        get_property(sets GLOBAL PROPERTY CREVICE_SETS)
+        foreach(feature IN LISTS ARGN)
+            string(TOUPPER "__${feature}__" macro)
+            string(REPLACE "." "_" macro "${macro}")
+            if(sets OR NOT crevice_native MATCHES "#define ${macro} ")
+                set(chosen FALSE)
+            endif()
+        endforeach()
+    elseif(NOT CREVICE_ISA STREQUAL "all" AND NOT set IN_LIST CREVICE_ISA)
+        set(chosen FALSE)
+    endif()
+    set(${result} ${chosen} PARENT_SCOPE)
+endfunction()
+
 # crevice_kernels(SET [FEATURE...] [OPTIONS option...]): what the set needs of the machine,
 # as the compiler names it after -m and in __builtin_cpu_supports(). The fastest first.
 set(crevice_sets "/* SPDX-License-Identifier: MIT */\n/* Generated from kernels.cmake. */\n")
 function(crevice_kernels set)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "OPTIONS")
+    crevice_isa_chosen(is_chosen ${set} ${arg_UNPARSED_ARGUMENTS})
+    if(NOT is_chosen)
+        return()
+    endif()
     set(target crevice_kernels_${set})
     string(TOUPPER ${set} SET)
     add_library(${target} OBJECT ${crevice_kernel_sources})
