@@ -100,6 +100,9 @@ typedef struct io_write_options {
 int io_write(const char *path, const io_image *image, const io_write_options *options,
              const crv_logger *log);
 
+/* The whole number of 0 to `largest` that a PNG gets for a value; srgb as above. */
+unsigned io_quantise(float value, bool srgb, unsigned largest);
+
 /* Whether the format that the extension names keeps io_image.made. */
 bool io_keeps_made(const char *path);
 

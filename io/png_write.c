@@ -26,7 +26,7 @@ static float encode_srgb(float v)
     return v <= 0.0031308f ? 12.92f * v : 1.055f * powf(v, 1.0f / 2.4f) - 0.055f;
 }
 
-static unsigned quantise(float value, bool srgb, unsigned largest)
+unsigned io_quantise(float value, bool srgb, unsigned largest)
 {
     if (!(value > 0.0f)) /* NaN too */
         return 0;
@@ -43,11 +43,11 @@ static void fill_row(const writer *w, int32_t y)
         const io_channel *channel = &w->image->channels[w->index[i % channels]];
         const float value = channel->data[first + i / channels];
         if (w->bits == 16) {
-            const unsigned q = quantise(value, w->srgb, 65535);
+            const unsigned q = io_quantise(value, w->srgb, 65535);
             w->row[2 * i] = (unsigned char)(q >> 8);
             w->row[2 * i + 1] = (unsigned char)(q & 255u);
         } else {
-            w->row[i] = (unsigned char)quantise(value, w->srgb, 255);
+            w->row[i] = (unsigned char)io_quantise(value, w->srgb, 255);
         }
     }
 }

@@ -151,6 +151,11 @@ static void cast_pixel(const scene *s, const scene_gbuffer_request *r,
     cast_layers(s, r, &ray, found, hit, pixel, g);
 }
 
+static bool is_stopped(const scene_gbuffer_request *r)
+{
+    return r->stop && atomic_load_explicit(r->stop, memory_order_relaxed);
+}
+
 int scene_render_gbuffer(const scene *s, const scene_gbuffer_request *request,
                          scene_gbuffer *out, const crv_logger *log)
 {
@@ -173,8 +178,12 @@ int scene_render_gbuffer(const scene *s, const scene_gbuffer_request *request,
     num_threads(scene_thread_count(request->threads))
 #endif
     for (int32_t y = 0; y < height; y++)
-        for (int32_t x = 0; x < g.desc.width; x++)
+        for (int32_t x = 0; x < g.desc.width && !is_stopped(request); x++)
             cast_pixel(s, request, &axes, &g, x, y);
+    if (is_stopped(request)) {
+        scene_gbuffer_free(&g);
+        return -1;
+    }
     *out = g;
     return 0;
 }

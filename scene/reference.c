@@ -73,7 +73,7 @@ int reference_create(const scene *s, const scene_gbuffer *g, const reference_opt
     *r = (reference){.scene = s, .occluders = s, .gbuffer = g, .options = *o};
     r->width = d->width - d->guard_left - d->guard_right;
     r->height = d->height - d->guard_top - d->guard_bottom;
-    r->offset = OFFSET_SHARE * largest_length(s);
+    r->offset = s ? OFFSET_SHARE * largest_length(s) : 0.0f;
     if (!scene_axes_of_view(&g->view, g->origin, &r->axes) || !allocate(r)) {
         reference_free(r);
         return refuse(log, "out of memory; make the picture smaller");
@@ -103,6 +103,13 @@ void reference_free(reference *r)
     free(r->accessibility);
     free(r->falloffs);
     free(r);
+}
+
+void reference_restart(reference *r, uint32_t seed)
+{
+    r->options.seed = seed;
+    r->fingerprint = 0;
+    r->done = 0;
 }
 
 static vec3 to_world(const scene_axes *axes, vec3 v)

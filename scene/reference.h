@@ -58,12 +58,16 @@ typedef struct reference_value {
 
 typedef struct reference reference;
 
-/* Both s and g must outlive the reference. Errors: options out of range, no memory. */
+/* Both s and g must outlive the reference. s may be NULL for the visible kind, if there is
+ * no mesh; such a reference has no checkpoint. Errors: options out of range, no memory. */
 int reference_create(const scene *s, const scene_gbuffer *g, const reference_options *o,
                      reference **out, const crv_logger *log);
 
 /* NULL does nothing. */
 void reference_free(reference *r);
+
+/* Begins again with other random numbers; what was prepared is kept. */
+void reference_restart(reference *r, uint32_t seed);
 
 /* One pixel by its position inside the guard band, stored nowhere. Thread-safe. */
 reference_value reference_pixel(const reference *r, int32_t x, int32_t y);

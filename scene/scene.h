@@ -10,6 +10,7 @@
 #ifndef CREVICE_SCENE_H
 #define CREVICE_SCENE_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 
 #include "crevice/crevice.h"
@@ -121,6 +122,9 @@ typedef struct scene_gbuffer_request {
     scene_normals normals;
     int32_t threads;     /* 0: OpenMP's choice */
     bool texture_frames; /* also fill uv, tangent and bitangent */
+    /* Another thread may set it to true to have the work given up: the result is -1, and
+     * nothing is logged. NULL: nobody does. */
+    const atomic_bool *stop;
 } scene_gbuffer_request;
 
 /* Pixels are packed, guard band included. */

@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "common/args.h"
-#include "frames.h"
+#include "common/frames.h"
 #include "common/nearest.h"
 
 typedef struct settings {

@@ -8,7 +8,7 @@ crevice_test(test_tool_metrics_flip SOURCES test_tool_metrics_flip.c LIBS crevic
 crevice_test(test_tool_metrics_heatmap
     SOURCES test_tool_metrics_heatmap.c LIBS crevice_common)
 crevice_test(test_tool_args
-    SOURCES test_tool_args.c ${tool_dir}/frames.c LIBS crevice_common)
+    SOURCES test_tool_args.c LIBS crevice_common)
 target_include_directories(test_tool_args PRIVATE ${tool_dir} ${PROJECT_SOURCE_DIR}/tools)
 
 crevice_test(test_tool_camera

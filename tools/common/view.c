@@ -2,6 +2,7 @@
 #include "view.h"
 
 #include "camera_file.h"
+#include "exact.h"
 #include "nearest.h"
 
 #include <math.h>
@@ -263,10 +264,7 @@ static int choose_camera(const view_settings *s, const scene *model, scene_view 
     return EXIT_DONE;
 }
 
-/* The framed view, changed as the user says. An eye alone looks at the scene's
- * centre; a target alone is seen from the framed direction and distance. */
-static int choose_view(const view_settings *s, const scene *model, scene_view *v,
-                       report *r)
+int view_choose(const view_settings *s, const scene *model, scene_view *v, report *r)
 {
     const float vfov = (float)((s->vfov_deg.given ? s->vfov_deg.value : 45.0) * degree);
     double lower[3], upper[3];
@@ -318,56 +316,6 @@ bool view_shows_something(const scene_gbuffer *g)
     return false;
 }
 
-/* "X,Y,Z" with as few digits as give the same point when they are read again: to the
- * scene, or as a direction where model is NULL. */
-static const char *exact_vector(const scene *model, const double p[3], char out[96])
-{
-    for (int digits = 6; digits <= 17; digits++) {
-        float was[3], is[3];
-        double again[3];
-        char *rest = out;
-
-        snprintf(out, 96, "%.*g,%.*g,%.*g", digits, p[0], digits, p[1], digits, p[2]);
-        for (int i = 0; i < 3; i++) {
-            again[i] = strtod(rest, &rest);
-            rest += *rest == ',';
-            was[i] = (float)p[i];
-            is[i] = (float)again[i];
-        }
-        if (model) {
-            scene_local_point(model, p, was);
-            scene_local_point(model, again, is);
-        }
-        if (memcmp(was, is, sizeof was) == 0)
-            break;
-    }
-    return out;
-}
-
-/* The same for a number that the tool keeps as a float, times `unit`. */
-static const char *exact_number(float value, double unit, char out[32])
-{
-    for (int digits = 6; digits <= 17; digits++) {
-        snprintf(out, 32, "%.*g", digits, (double)value / unit);
-        const float again = (float)(strtod(out, NULL) * unit);
-        if (memcmp(&again, &value, sizeof again) == 0)
-            break;
-    }
-    return out;
-}
-
-/* The camera as flags that give the same picture, bit by bit. */
-static void tell_view(const scene *model, const scene_view *v, report *r)
-{
-    const bool ortho = v->projection == CRV_ORTHOGRAPHIC;
-    char eye[96], target[96], up[96], number[32];
-    report_info(r, "camera: --eye %s --target %s --up %s %s %s",
-                exact_vector(model, v->eye, eye), exact_vector(model, v->target, target),
-                exact_vector(NULL, v->up, up), ortho ? "--ortho" : "--vfov",
-                ortho ? exact_number(v->view_height, 1.0, number)
-                      : exact_number(v->vfov_rad, degree, number));
-}
-
 /* Large ones take long, which a small one with as many layers tells beforehand. */
 static void announce(const scene *model, const scene_gbuffer_request *request, report *r)
 {
@@ -406,10 +354,11 @@ int view_render(const view_settings *s, const scene *model, bool texture_frames,
         .texture_frames = texture_frames,
     };
     const double start = report_seconds();
-    const int result = choose_view(s, model, &request.view, r);
+    char camera[384];
+    const int result = view_choose(s, model, &request.view, r);
     if (result != EXIT_DONE)
         return result;
-    tell_view(model, &request.view, r);
+    report_info(r, "camera: %s", exact_view(model, &request.view, camera));
     announce(model, &request, r);
     if (scene_render_gbuffer(model, &request, out, &r->logger) != 0)
         return EXIT_FAILED;

@@ -46,6 +46,10 @@ int view_check(const view_settings *s, report *r);
 /* Loads the model, or makes the built-in one. */
 int view_load(const view_settings *s, scene **out, report *r);
 
+/* The framed view, changed as the user says. An eye alone looks at the scene's centre; a
+ * target alone is seen from the framed direction and distance. */
+int view_choose(const view_settings *s, const scene *model, scene_view *v, report *r);
+
 /* Chooses the camera and ray-casts the G-buffer, texture frames included if they are
  * wanted. */
 int view_render(const view_settings *s, const scene *model, bool texture_frames,

@@ -4,7 +4,7 @@
 #define TOOL_SHOT_H
 
 #include "ao_settings.h"
-#include "frames.h"
+#include "common/frames.h"
 #include "passes/passes.h"
 
 /*
