@@ -58,8 +58,9 @@ typedef struct reference_value {
 
 typedef struct reference reference;
 
-/* Both s and g must outlive the reference. s may be NULL for the visible kind, if there is
- * no mesh; such a reference has no checkpoint. Errors: options out of range, no memory. */
+/* Both s and g must outlive the reference. s may be NULL for the visible kind, if there
+ * is no mesh; such a reference has no checkpoint. Errors: options out of range, no
+ * memory. */
 int reference_create(const scene *s, const scene_gbuffer *g, const reference_options *o,
                      reference **out, const crv_logger *log);
 

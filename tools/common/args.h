@@ -119,6 +119,8 @@ typedef struct command {
     const char *const *examples; /* NULL-terminated: comment, line, comment, line ... */
     size_t settings_size;
     int (*run)(const void *settings, report *r); /* returns an exit code */
+    const char *program; /* instead of run: a program beside this one that is run with the
+                            same arguments; NULL: none */
 } command;
 
 /* Fills zeroed settings from argv (what follows the command's name). Returns EXIT_DONE

@@ -33,7 +33,7 @@ void estimate_fit(estimator *e, const crv_gbuffer_desc *desc)
     e->desc = *desc;
 }
 
-static bool same_options(const crv_options *a, const crv_options *b)
+bool estimate_same_options(const crv_options *a, const crv_options *b)
 {
     if (a->method != b->method || a->filter != b->filter)
         return false;
@@ -49,7 +49,7 @@ static bool same_options(const crv_options *a, const crv_options *b)
 
 int estimate_plan(estimator *e, const crv_options *options, report *r)
 {
-    if (e->plan && same_options(&e->options, options))
+    if (e->plan && estimate_same_options(&e->options, options))
         return EXIT_DONE;
     crv_plan_destroy(e->plan);
     e->plan = NULL;

@@ -23,6 +23,9 @@ void estimate_fit(estimator *e, const crv_gbuffer_desc *desc);
 /* Makes the plan, unless there is one with these options already. */
 int estimate_plan(estimator *e, const crv_options *options, report *r);
 
+/* Whether they say the same in every option of the table. */
+bool estimate_same_options(const crv_options *a, const crv_options *b);
+
 /* Converted planar depth of layer 0 from e->gbuffer, of e->desc's size; background is
  * infinite. The caller frees it. Returns an exit code. */
 int estimate_depth(estimator *e, float **out, report *r);

@@ -1,0 +1,320 @@
+/* SPDX-License-Identifier: MIT */
+/* The viewer without its window: cameras, sliders, texts, pictures. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "command_text.h"
+#include "engine.h"
+#include "knob.h"
+#include "motion.h"
+#include "option_text.h"
+#include "target.h"
+
+static const double pi = 3.14159265358979323846;
+
+static scene_view from_z(void)
+{
+    return (scene_view){
+        .eye = {0, 0, 4}, .up = {0, 1, 0}, .vfov_rad = 0.9f, .view_height = 2.0f};
+}
+
+static void assert_near3(const double a[3], double x, double y, double z)
+{
+    const double b[3] = {x, y, z};
+    for (int i = 0; i < 3; i++)
+        assert_true(fabs(a[i] - b[i]) < 1e-9); /* a few ulps of numbers below 10 */
+}
+
+/* By hand: the eye on +Z goes a quarter to +X, then up; the poles are not reached. */
+static void test_orbit(void **state)
+{
+    (void)state;
+    scene_view v = from_z();
+    motion_orbit(&v, 0.5 * pi, 0.0);
+    assert_near3(v.eye, 4, 0, 0);
+    motion_orbit(&v, 0.0, pi / 6.0);
+    assert_near3(v.eye, 4 * cos(pi / 6), 2, 0);
+    motion_orbit(&v, 0.0, 10.0);
+    assert_near3(v.eye, 4 * cos(89 * pi / 180), 4 * sin(89 * pi / 180), 0);
+    assert_near3(v.target, 0, 0, 0);
+}
+
+static void test_other_motions(void **state)
+{
+    (void)state;
+    scene_view v = from_z();
+    motion_dolly(&v, 0.5);
+    assert_near3(v.eye, 0, 0, 2);
+    assert_true(fabsf(v.view_height - 1.0f) < 1e-6f);
+    /* At distance 2 the picture is 4 tan(0.45) high. */
+    motion_pan(&v, 0.5, 0.25);
+    assert_near3(v.target, -2 * tan(0.45f), tan(0.45f), 0);
+    v = from_z();
+    motion_fly(&v, 0.25, 0.5, 1.0);
+    assert_near3(v.eye, 1, 2, 0);
+    assert_near3(v.target, 1, 2, -4);
+    v = from_z();
+    motion_look(&v, 0.5 * pi, 0.0);
+    assert_near3(v.eye, 0, 0, 4);
+    assert_near3(v.target, 4, 0, 4);
+}
+
+/* Every number of the table: ends at 0 and 1, there and back again, never falling. */
+static void test_knobs(void **state)
+{
+    (void)state;
+    for (int32_t i = 0; i < crv_option_count(); i++) {
+        const crv_option *option = crv_option_at(i);
+        if (!knob_is_slider(option))
+            continue;
+        const knob k = knob_of(option, 0.0);
+        assert_true(k.min >= option->min && k.max <= option->max && k.min < k.max);
+        assert_true(option->default_value >= k.min && option->default_value <= k.max);
+        assert_true(fabs(knob_position(&k, k.min)) < 1e-12);
+        assert_true(fabs(knob_position(&k, k.max) - 1.0) < 1e-12);
+        double last = k.min;
+        for (int step = 0; step <= 100; step++) {
+            const double value = knob_value(&k, step / 100.0);
+            assert_true(value >= last && value <= k.max);
+            last = value;
+            if (!k.whole)
+                assert_true(fabs(knob_position(&k, value) - step / 100.0) < 1e-9);
+            else
+                assert_true(fabs(knob_value(&k, knob_position(&k, value)) - value) < 0.5);
+        }
+    }
+    assert_int_equal(knob_of(crv_option_find("radius"), 0.3).scale, KNOB_LOG);
+    assert_int_equal(knob_of(crv_option_find("bias_deg"), 0.0).scale, KNOB_LINEAR);
+    assert_int_equal(knob_of(crv_option_find("max_radius_px"), 0.0).scale, KNOB_LOG_ZERO);
+    assert_false(knob_is_slider(crv_option_find("seed")));
+}
+
+static crv_options options_of(const char *method)
+{
+    crv_options o;
+    assert_int_equal(crv_options_init(&o, sizeof o, method), CRV_OK);
+    return o;
+}
+
+/* The papers' integrals, as docs/methods.md lists them. */
+static void test_targets(void **state)
+{
+    (void)state;
+    crv_options o = options_of("hbao");
+    reference_options t = target_of(&o);
+    assert_int_equal(t.weighting, CRV_WEIGHTING_UNIFORM);
+    assert_int_equal(t.falloff, CRV_FALLOFF_LINEAR);
+    o = options_of("gtao");
+    o.weighting = CRV_WEIGHTING_UNIFORM;
+    assert_int_equal(target_of(&o).weighting, CRV_WEIGHTING_UNIFORM);
+    o = options_of("vao");
+    assert_int_equal(target_of(&o).definition, REFERENCE_TANGENT_SPHERE);
+    o = options_of("alchemy");
+    assert_int_equal(target_of(&o).falloff, CRV_FALLOFF_ALCHEMY);
+    assert_int_equal(target_of(&o).weighting, CRV_WEIGHTING_COSINE);
+    reference_options other = t;
+    assert_true(target_equal(&t, &other));
+    other.tau = 9.0f; /* of a falloff that is not used */
+    assert_true(target_equal(&t, &other));
+    other.radius *= 2.0f;
+    assert_false(target_equal(&t, &other));
+}
+
+/* What is written is read again, to the same options. */
+static void test_option_text(void **state)
+{
+    (void)state;
+    crv_options o = options_of("gtao"), again = options_of("gtao");
+    char text[OPTION_TEXT_SIZE];
+    o.radius = 0.1f;
+    o.falloff = CRV_FALLOFF_CUBIC;
+    o.filter = NULL;
+    assert_string_equal(option_flags(&o, text),
+                        " --method gtao --filter none --radius 0.1 --falloff cubic");
+    option_lines(&o, text);
+    for (char *line = strtok(text, "\n"); line; line = strtok(NULL, "\n")) {
+        char *value = strchr(line, '=');
+        *value = '\0';
+        assert_int_equal(crv_options_set(&again, line, value + 1, NULL), CRV_OK);
+    }
+    assert_true(estimate_same_options(&o, &again));
+}
+
+/* An engine on a small built-in scene. */
+typedef struct bench {
+    report r;
+    view_settings settings;
+    source source;
+    engine engine;
+    wish wish;
+} bench;
+
+static void quiet(void *user, crv_log_level level, const char *line)
+{
+    (void)user;
+    (void)level;
+    (void)line;
+}
+
+static void open_bench(bench *b, const char *model)
+{
+    *b = (bench){.r.logger.fn = quiet, .r.quiet = true};
+    b->settings = (view_settings){.common.options = options_of(NULL), .model = model};
+    b->settings.size = (arg_size){.width = 96, .height = 54};
+    b->settings.layers.value = 1;
+    assert_int_equal(source_open(&b->source, &b->settings, NULL, &b->r), EXIT_DONE);
+    assert_int_equal(
+        engine_open(&b->engine, &b->source, NULL, &b->settings.common, &b->r), EXIT_DONE);
+    b->wish = (wish){.width = 96, .height = 54, .heat_scale = 0.25};
+    assert_int_equal(view_choose(&b->settings, b->source.model, &b->wish.view, &b->r),
+                     EXIT_DONE);
+    for (int i = 0; i < HALVES; i++) {
+        b->wish.half[i].options = options_of(NULL);
+        b->wish.half[i].options.radius = 0.3f;
+    }
+}
+
+static void close_bench(bench *b)
+{
+    engine_close(&b->engine);
+    source_free(&b->source);
+}
+
+static void render(bench *b, shown *out)
+{
+    assert_true(engine_render(&b->engine, &b->wish, out));
+    assert_string_equal(out->problem, "");
+}
+
+/* Options that go to and fro give what they gave at first, and what another engine gives;
+ * all that a method or a preset changes is taken over. */
+static void test_engine_keeps_nothing_stale(void **state)
+{
+    (void)state;
+    static const char *const methods[] = {"gtao", "vao", "bitmask", "hbao"};
+    bench b, fresh;
+    shown first, other, again;
+    open_bench(&b, "builtin:courtyard");
+    render(&b, &first);
+    for (size_t i = 0; i < sizeof methods / sizeof methods[0]; i++) {
+        b.wish.half[0].options = options_of(methods[i]);
+        b.wish.half[0].options.radius = 0.5f;
+        b.wish.half[0].options.filter = i % 2 ? NULL : b.wish.half[1].options.filter;
+        render(&b, &other);
+        open_bench(&fresh, "builtin:courtyard");
+        fresh.wish = b.wish;
+        render(&fresh, &again);
+        const size_t count = (size_t)96 * 54;
+        assert_memory_equal(other.half[0].accessibility, again.half[0].accessibility,
+                            count * sizeof(float));
+        assert_memory_equal(first.half[1].pixels, other.half[1].pixels, 4 * count);
+        assert_true(memcmp(first.half[0].pixels, other.half[0].pixels, 4 * count) != 0);
+        shown_free(&other);
+        shown_free(&again);
+        close_bench(&fresh);
+    }
+    shown_free(&first);
+    close_bench(&b);
+}
+
+/* Grey is the PNG's grey, no difference is the heat map's white, lit is dark where
+ * closed. */
+static void test_looks(void **state)
+{
+    (void)state;
+    bench b;
+    shown s;
+    open_bench(&b, "builtin:corner");
+    b.wish.half[1].look = LOOK_DIFFERENCE;
+    render(&b, &s);
+    for (size_t i = 0; i < (size_t)96 * 54; i++) {
+        assert_int_equal(s.half[0].pixels[4 * i],
+                         io_quantise(s.half[0].accessibility[i], false, 255));
+        if (s.buffers->surface[i])
+            assert_true(s.half[1].pixels[4 * i + 2] > 240);
+    }
+    shown_free(&s);
+    b.wish.half[0].look = LOOK_LIT;
+    b.wish.half[1].look = LOOK_LIT;
+    b.wish.half[1].content = HALF_OPEN;
+    render(&b, &s);
+    int darker = 0;
+    for (size_t i = 0; i < (size_t)4 * 96 * 54; i++) {
+        assert_true(s.half[0].pixels[i] <= s.half[1].pixels[i]);
+        darker += s.half[0].pixels[i] < s.half[1].pixels[i];
+    }
+    assert_true(darker > 0);
+    shown_free(&s);
+    close_bench(&b);
+}
+
+/* While the camera moves the picture is coarse, with the same framing. */
+static void test_moving_is_coarse(void **state)
+{
+    (void)state;
+    bench b;
+    shown s;
+    open_bench(&b, "builtin:corner");
+    b.wish.moving = true;
+    render(&b, &s);
+    assert_true(s.coarseness > 1);
+    assert_int_equal(s.buffers->width, (96 + s.coarseness - 1) / s.coarseness);
+    shown_free(&s);
+    b.wish.moving = false;
+    render(&b, &s);
+    assert_int_equal(s.coarseness, 1);
+    assert_int_equal(s.buffers->width, 96);
+    shown_free(&s);
+    close_bench(&b);
+}
+
+static void test_commands(void **state)
+{
+    (void)state;
+    bench b;
+    char text[COMMAND_SIZE];
+    open_bench(&b, "builtin:corner");
+    wish *w = &b.wish;
+    w->view = (scene_view){.eye = {0.5, 1, 4}, .up = {0, 1, 0}};
+    w->view.vfov_rad = (float)(40.0 * pi / 180.0);
+    command_text(&b.source, w, 0, text);
+    assert_string_equal(text, "crevice render builtin:corner --size 96x54 --eye 0.5,1,4 "
+                              "--target 0,0,0 --up 0,1,0 --vfov 40 --method hbao "
+                              "--radius 0.3 -o ao.png");
+    w->half[1].content = HALF_TRUTH;
+    command_text(&b.source, w, 1, text);
+    assert_non_null(strstr(text, "crevice reference builtin:corner --size 96x54"));
+    assert_non_null(
+        strstr(text, "--radius 0.3 --weighting uniform --falloff linear --rays 1024"));
+    w->half[1].look = LOOK_DIFFERENCE;
+    command_text(&b.source, w, 1, text);
+    assert_non_null(strstr(text, "&& crevice compare left.exr right.exr --heat-scale"));
+    b.settings.model = "it's a model.glb";
+    w->half[0].look = LOOK_LIT;
+    command_text(&b.source, w, 0, text);
+    assert_non_null(strstr(text, "crevice render 'it'\\''s a model.glb' --size"));
+    assert_non_null(strstr(text, " --shade lit -o lit.png"));
+    close_bench(&b);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_orbit),
+        cmocka_unit_test(test_other_motions),
+        cmocka_unit_test(test_knobs),
+        cmocka_unit_test(test_targets),
+        cmocka_unit_test(test_option_text),
+        cmocka_unit_test(test_engine_keeps_nothing_stale),
+        cmocka_unit_test(test_looks),
+        cmocka_unit_test(test_moving_is_coarse),
+        cmocka_unit_test(test_commands),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: MIT */
+#include "viewer_args.h"
+
+static const arg input_rows[] = {
+    {.name = "INPUT",
+     .required = true,
+     ARG_INTO(ARG_TEXT, viewer_settings, view.model),
+     .help = "mesh (glTF, OBJ, ...), scene made in code (builtin:courtyard, ...), or a "
+             "frame with a depth pass (.exr, .png, .pfm); shot.####.exr with --frames"},
+    VIEW_IMPORT_ROW,
+    {.name = "--frames",
+     .value = "A-B[xSTEP]",
+     ARG_INTO(ARG_TEXT, viewer_settings, frames),
+     .help = "frames of a shot, as for `crevice ao`"},
+    {.name = "--script",
+     .value = "FILE",
+     ARG_INTO(ARG_TEXT, viewer_settings, script),
+     .help = "do what FILE says, an action a line (docs/viewer.md), as a demonstration "
+             "or a test"},
+};
+static const arg_table input_table = ARG_TABLE("Input", input_rows);
+
+static const arg_table *const tables[] = {&input_table,  &view_camera, &view_buffers,
+                                          &args_threads, &args_device, &args_output_lines,
+                                          NULL};
+
+static const char *const examples[] = {
+    "a mesh, the default method beside the truth",
+    "crevice view model.glb",
+    "a renderer's frame",
+    "crevice view frame.exr --vfov 40",
+    "a shot to scrub through",
+    "crevice view shot.####.exr --frames 1-240 --method gtao",
+    NULL,
+};
+
+const command command_view = {
+    .name = "view",
+    .summary = "a window: two methods side by side, sliders, the error against the truth",
+    .synopsis = "INPUT [options]",
+    .details =
+        "Drag the line to compare the halves. Options given here are those that both "
+        "begin with; --size is the picture's. The truth is traced in the background. For "
+        "a frame it is traced through the surfaces that the depth pass holds.",
+    .tables = tables,
+    .library_options = true,
+    .examples = examples,
+    .settings_size = sizeof(viewer_settings),
+    .program = "crevice-view",
+};

@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: MIT */
+/* viewer_args.h: the arguments of `crevice view`, which is a program of its own. */
+#ifndef TOOL_VIEWER_ARGS_H
+#define TOOL_VIEWER_ARGS_H
+
+#include "view.h"
+
+typedef struct viewer_settings {
+    view_settings view; /* its model may be a frame, too */
+    const char *frames, *script;
+} viewer_settings;
+
+/* Its `run` is NULL: see command.program. */
+extern const command command_view;
+
+#endif

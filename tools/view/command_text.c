@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: MIT */
+#include "command_text.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "common/exact.h"
+#include "option_text.h"
+#include "target.h"
+
+#ifdef __GNUC__
+__attribute__((format(printf, 2, 3)))
+#endif
+static void
+append(char out[COMMAND_SIZE], const char *format, ...)
+{
+    const size_t used = strlen(out);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(out + used, COMMAND_SIZE - used, format, arguments);
+    va_end(arguments);
+}
+
+/* As one word of a shell. */
+static void append_word(char out[COMMAND_SIZE], const char *word)
+{
+    const char *plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                        "_-./:,=+@%";
+    if (word[0] != '\0' && strspn(word, plain) == strlen(word)) {
+        append(out, "%s", word);
+        return;
+    }
+    append(out, "'");
+    for (; *word != '\0'; word++)
+        append(out, *word == '\'' ? "'\\''" : "%c", *word);
+    append(out, "'");
+}
+
+static void append_device(char out[COMMAND_SIZE], const common_settings *c)
+{
+    if (c->device) {
+        append(out, " --device ");
+        append_word(out, c->device);
+    }
+    if (c->exact)
+        append(out, " --exact");
+}
+
+/* What of the G-buffer is not as it is by itself. */
+static void append_mesh(char out[COMMAND_SIZE], const source *s, const wish *w)
+{
+    const view_settings *v = s->settings;
+    char camera[384];
+    append_word(out, v->model);
+    append(out, " --size %dx%d %s", w->width, w->height,
+           exact_view(s->model, &w->view, camera));
+    if (v->layers.value > 1)
+        append(out, " --layers %d", v->layers.value);
+    if (v->layer_kind.value != CRV_LAYERS_SURFACES)
+        append(out, " --layer-kind solid");
+    if (v->normals_from.value != 0)
+        append(out, " --normals-from face");
+    if (v->guard_px.given)
+        append(out, " --guard-px %d", v->guard_px.value);
+}
+
+static void append_frame(char out[COMMAND_SIZE], const source *s, const wish *w)
+{
+    const view_settings *v = s->settings;
+    char path[4096], number[32];
+    const char *name = source_frame_name(s, w->frame, path, sizeof path);
+    append_word(out, name ? name : v->model);
+    if (v->vfov_deg.given)
+        append(out, " --vfov %s", exact_number((float)v->vfov_deg.value, 1.0, number));
+    if (v->ortho.given)
+        append(out, " --ortho %s", exact_number((float)v->ortho.value, 1.0, number));
+}
+
+/* The accessibility of a half to a file named `output`. */
+static void append_content(char out[COMMAND_SIZE], const source *s, const wish *w,
+                           int half, const char *shade, const char *output)
+{
+    const half_wish *own = &w->half[half], *other = &w->half[1 - half];
+    char flags[OPTION_TEXT_SIZE];
+    if (own->content == HALF_TRUTH) {
+        const crv_options *o =
+            other->content == HALF_METHOD ? &other->options : &own->options;
+        const reference_options target = target_of(o);
+        append(out, "crevice reference ");
+        append_mesh(out, s, w);
+        append(out, "%s --rays 1024", target_flags(&target, flags, sizeof flags));
+    } else {
+        append(out, "crevice %s ", s->model ? "render" : "ao");
+        if (s->model)
+            append_mesh(out, s, w);
+        else
+            append_frame(out, s, w);
+        append(out, "%s", option_flags(&own->options, flags));
+        append_device(out, &s->settings->common);
+        append(out, "%s", shade);
+    }
+    append(out, " -o %s", output);
+}
+
+static const char *reason(const source *s, const wish *w, int half)
+{
+    const half_wish *own = &w->half[half];
+    const bool difference = own->look == LOOK_DIFFERENCE;
+    for (int i = 0; i < HALVES; i++)
+        if ((i == half || difference) && !s->model && w->half[i].content == HALF_TRUTH)
+            return "# no command traces rays through the depth of a frame";
+    if (own->look == LOOK_LIT && own->content == HALF_TRUTH)
+        return "# no command lights a mesh with its ray-traced accessibility";
+    if (own->content == HALF_OPEN && (own->look == LOOK_ACCESSIBILITY || !s->model))
+        return "# every pixel is 1";
+    if (difference
+        && (w->half[0].content == HALF_OPEN || w->half[1].content == HALF_OPEN))
+        return "# one half is 1 everywhere: there is no file to compare with";
+    return NULL;
+}
+
+const char *command_text(const source *s, const wish *w, int half, char out[COMMAND_SIZE])
+{
+    const half_wish *own = &w->half[half];
+    const char *why = reason(s, w, half);
+    out[0] = '\0';
+    if (why) {
+        append(out, "%s", why);
+    } else if (own->look == LOOK_DIFFERENCE) {
+        append_content(out, s, w, 0, "", "left.exr");
+        append(out, " && ");
+        append_content(out, s, w, 1, "", "right.exr");
+        append(out,
+               " && crevice compare left.exr right.exr --heat-scale %.6g --heat-map "
+               "difference.png",
+               w->heat_scale);
+    } else if (own->look == LOOK_LIT && s->model) {
+        append_content(out, s, w, half,
+                       own->content == HALF_OPEN ? " --shade lit-no-ao" : " --shade lit",
+                       "lit.png");
+    } else {
+        append_content(out, s, w, half, "",
+                       own->content == HALF_TRUTH ? "truth.exr" : "ao.png");
+    }
+    return out;
+}

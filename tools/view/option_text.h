@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: MIT */
+/* option_text.h: options as text that the tool and the library read again. */
+#ifndef VIEW_OPTION_TEXT_H
+#define VIEW_OPTION_TEXT_H
+
+#include "crevice/crevice.h"
+
+enum { OPTION_TEXT_SIZE = 2048 };
+
+/* One value, as crv_options_set() takes it. Returns out. */
+const char *option_value_text(const crv_option *option, double value, char out[64]);
+
+/* A line "key=value" each: method, filter and every option that these read. */
+const char *option_lines(const crv_options *o, char out[OPTION_TEXT_SIZE]);
+
+/* Flags of the tool: " --method gtao --radius 0.5 ...": the radius, and what differs from
+ * the method's defaults. */
+const char *option_flags(const crv_options *o, char out[OPTION_TEXT_SIZE]);
+
+#endif

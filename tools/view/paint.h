@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT */
+/* paint.h: planes of floats to pixels of the screen: R, G, B and 255, a byte each. */
+#ifndef VIEW_PAINT_H
+#define VIEW_PAINT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* Accessibility as the grey that a PNG of it has. */
+void paint_grey(const float *accessibility, size_t count, uint8_t *out);
+
+/* dark + accessibility (light - dark), linear light, as the sRGB that a PNG has: dark and
+ * light are three floats a pixel. */
+void paint_lit(const float *dark, const float *light, const float *accessibility,
+               size_t count, uint8_t *out);
+
+/* a - b as the heat map of `crevice compare`; grey if surface is 0. */
+void paint_difference(const float *a, const float *b, const uint8_t *surface,
+                      double scale, size_t count, uint8_t *out);
+
+/* The pixels from `first` on, of which nothing is known yet. */
+void paint_unknown(size_t first, size_t count, int32_t width, uint8_t *out);
+
+#endif

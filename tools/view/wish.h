@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: MIT */
+/* wish.h: what is to be seen, and what is made of it. */
+#ifndef VIEW_WISH_H
+#define VIEW_WISH_H
+
+#include "buffers.h"
+#include "truth.h"
+
+enum { HALVES = 2, PROBLEM_SIZE = 512 };
+
+/* Where a half's accessibility comes from. */
+typedef enum half_content {
+    HALF_METHOD,
+    HALF_TRUTH, /* ray-traced: what the other half's method estimates, or this one's */
+    HALF_OPEN   /* 1 everywhere: no ambient occlusion */
+} half_content;
+
+/* As what it is shown. */
+typedef enum half_look {
+    LOOK_ACCESSIBILITY,
+    LOOK_LIT,
+    LOOK_DIFFERENCE /* left minus right */
+} half_look;
+
+typedef struct half_wish {
+    half_content content;
+    half_look look;
+    crv_options options;
+} half_wish;
+
+typedef struct wish {
+    int32_t width, height; /* px, of a mesh's picture; frames have their own */
+    bool moving;           /* coarse if need be, soon */
+    scene_view view;       /* of a mesh */
+    int32_t frame;         /* of a shot: its place in the list */
+    half_wish half[HALVES];
+    double heat_scale; /* the difference that gets the darkest colours */
+} wish;
+
+typedef struct half_shown {
+    uint8_t *pixels;      /* RGBA */
+    float *accessibility; /* of each pixel */
+    double time_ms;       /* of the method's run; 0: none ran */
+    bool measured;        /* against a truth of at least one pass: */
+    double rmse;          /* without what the truth's own noise adds */
+    double bias;
+    bool has_truth;
+    truth_state truth;
+    float *truth_plane; /* NULL unless has_truth */
+} half_shown;
+
+/* One picture. Free it with shown_free(). */
+typedef struct shown {
+    wish wish;
+    buffers *buffers;   /* held */
+    int32_t coarseness; /* each pixel stands for so many of each side */
+    half_shown half[HALVES];
+    double cast_ms;             /* of the last ray casting or reading */
+    char problem[PROBLEM_SIZE]; /* why it is not what was wished for; "" if it is */
+} shown;
+
+/* NULL does nothing. */
+void shown_free(shown *s);
+
+#endif
