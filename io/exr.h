@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* exr.h: an open EXR file, shared by exr_file.c, exr_chunks.c and exr_read.c. */
+/* exr.h: an open EXR file, shared by the files that read, write and copy them. */
 #ifndef CREVICE_IO_EXR_H
 #define CREVICE_IO_EXR_H
 
@@ -27,6 +27,10 @@ typedef struct io__exr {
 
 /* Opens the file and lists its channels. */
 int io__exr_open(const io__file *file, io__exr *exr);
+/* The channel of this name, or NULL. */
+const io__exr_channel *io__exr_find_channel(const io__exr *exr, const char *name);
+/* Fails with the list of channels. */
+int io__exr_fail_channel(const io__exr *exr, const char *name);
 void io__exr_close(io__exr *exr);
 
 /* An error handler for OpenEXR's contexts. */
@@ -47,11 +51,41 @@ int io__exr_metadata(const io__exr *exr, int part, io_image *image);
  * Whether all of a part's pixels are in the file, before memory is taken for them: finds
  * a file that was cut off or whose header claims more than it holds. Logs the error.
  */
+int io__exr_check_chunks(io__exr *exr, int part);
+/* The same, and whether OpenEXR reads its compression as it should. */
 int io__exr_check_part(io__exr *exr, int part);
 
 /* Reads a part. targets: for each channel of the part, in its order, the place for the
  * data window's pixels, or NULL if it is not wanted. */
 int io__exr_read_part(io__exr *exr, int part, float *const *targets);
+
+/* A chunk of a part: a tile, or some scanlines. */
+typedef struct io__exr_chunk {
+    int32_t x, y;             /* of a tile; x is 0 and y the first line of scanlines */
+    int32_t level_x, level_y; /* of mip-maps */
+} io__exr_chunk;
+
+/* Where a chunk lies, checked against the size of the file. */
+exr_result_t io__exr_find_chunk(const io__exr *exr, int part, const io__exr_chunk *chunk,
+                                exr_chunk_info_t *info);
+
+/* An EXR file that is being written. */
+typedef struct io__exr_sink {
+    io__output *output;
+    exr_context_t context;
+    int io_error; /* errno of a failed write */
+} io__exr_sink;
+
+exr_result_t io__exr_sink_open(io__exr_sink *sink, io__output *output);
+exr_result_t io__exr_set_level(const io__exr_sink *sink, int part);
+/* Finishes the file, of which `code` is the result so far. Returns 0, or -1 after an
+ * error line with this remedy. */
+int io__exr_sink_close(io__exr_sink *sink, exr_result_t code, const char *remedy);
+
+/* A chunk that has been packed, to the file. */
+exr_result_t io__exr_write_packed(const io__exr_sink *sink, int part,
+                                  const io__exr_chunk *chunk,
+                                  const exr_encode_pipeline_t *encode);
 
 /* The writer of exr_write.c. */
 int io__exr_write(io__output *output, const io_image *image,

@@ -94,7 +94,7 @@ static bool is_misread(const io__exr *exr, int part, exr_compression_t compressi
 }
 
 /* OpenEXR itself would fill what an uncompressed file lacks with zeros. */
-int io__exr_check_part(io__exr *exr, int part)
+int io__exr_check_chunks(io__exr *exr, int part)
 {
     part_layout layout = {0};
     const uint64_t size = (uint64_t)exr->file->size;
@@ -103,10 +103,6 @@ int io__exr_check_part(io__exr *exr, int part)
     if (find_layout(exr, part, &layout))
         return -1;
     exr_get_compression(exr->context, part, &compression);
-    if (is_misread(exr, part, compression))
-        return io__fail(exr->file->log, exr->file->path,
-                        "has several 32-bit channels in B44 compression, which OpenEXR's "
-                        "C interface misreads; write it with ZIP or PIZ compression");
     const uint64_t chunks = (uint64_t)layout.columns * (uint64_t)layout.rows;
     if (chunks > size / sizeof(uint64_t))
         return forged(exr, "it is shorter than its table");
@@ -139,28 +135,23 @@ int io__exr_check_part(io__exr *exr, int part)
     return result;
 }
 
+int io__exr_check_part(io__exr *exr, int part)
+{
+    exr_compression_t compression = EXR_COMPRESSION_NONE;
+    exr_get_compression(exr->context, part, &compression);
+    if (is_misread(exr, part, compression))
+        return io__fail(exr->file->log, exr->file->path,
+                        "has several 32-bit channels in B44 compression, which OpenEXR's "
+                        "C interface misreads; write it with ZIP or PIZ compression");
+    return io__exr_check_chunks(exr, part);
+}
+
 static uint32_t load_bytes(const unsigned char *p, size_t count)
 {
     uint32_t bits = 0;
     for (size_t i = 0; i < count; i++)
         bits |= (uint32_t)p[i] << (8 * i);
     return bits;
-}
-
-static float float_of_half(uint32_t half)
-{
-    const uint32_t sign = (half & 0x8000u) << 16, exponent = half >> 10 & 31u;
-    const uint32_t fraction = half & 0x3ffu;
-    uint32_t bits = sign | (exponent + 112u) << 23 | fraction << 13;
-    float value;
-    if (exponent == 31) /* infinity, NaN */
-        bits = sign | 0x7f800000u | fraction << 13;
-    if (exponent == 0) { /* zero, denormal */
-        value = (float)fraction * 0x1p-24f;
-        return sign ? -value : value;
-    }
-    memcpy(&value, &bits, sizeof value);
-    return value;
 }
 
 /* Little-endian values, which is a copy for floats on most machines: the compiler sees it
@@ -170,7 +161,7 @@ static void unpack_line(const unsigned char *source, exr_pixel_type_t type, size
 {
     if (type == EXR_PIXEL_HALF) {
         for (size_t i = 0; i < width; i++)
-            out[i] = float_of_half(load_bytes(source + 2 * i, 2));
+            out[i] = io__float_of_half(load_bytes(source + 2 * i, 2));
     } else if (type == EXR_PIXEL_UINT) {
         for (size_t i = 0; i < width; i++)
             out[i] = (float)load_bytes(source + 4 * i, 4);

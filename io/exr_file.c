@@ -278,3 +278,21 @@ int io__exr_list(const io__exr *exr, io_image *image)
     }
     return 0;
 }
+
+const io__exr_channel *io__exr_find_channel(const io__exr *exr, const char *name)
+{
+    for (int32_t i = 0; i < exr->channel_count; i++)
+        if (!strcmp(exr->channels[i].name, name))
+            return &exr->channels[i];
+    return NULL;
+}
+
+int io__exr_fail_channel(const io__exr *exr, const char *name)
+{
+    io_image all = {0};
+    if (io__exr_list(exr, &all))
+        return -1;
+    io__fail_channel(exr->file->log, exr->file->path, name, &all);
+    io_image_free(&all);
+    return -1;
+}

@@ -35,24 +35,6 @@ static bool part_is_chosen(const selection *chosen, int part)
     return false;
 }
 
-static const io__exr_channel *find_channel(const io__exr *exr, const char *name)
-{
-    for (int32_t i = 0; i < exr->channel_count; i++)
-        if (!strcmp(exr->channels[i].name, name))
-            return &exr->channels[i];
-    return NULL;
-}
-
-static int fail_unknown(const io__exr *exr, const char *name)
-{
-    io_image all = {0};
-    if (io__exr_list(exr, &all))
-        return -1;
-    io__fail_channel(exr->file->log, exr->file->path, name, &all);
-    io_image_free(&all);
-    return -1;
-}
-
 static int choose(const io__exr *exr, const char *const *names, int32_t count,
                   selection *chosen)
 {
@@ -67,9 +49,9 @@ static int choose(const io__exr *exr, const char *const *names, int32_t count,
         return io__fail(file->log, file->path, "no memory; close other programs");
     for (int32_t i = 0; i < chosen->count; i++) {
         const io__exr_channel *channel =
-            names ? find_channel(exr, names[i]) : &exr->channels[i];
+            names ? io__exr_find_channel(exr, names[i]) : &exr->channels[i];
         if (!channel)
-            return fail_unknown(exr, names[i]);
+            return io__exr_fail_channel(exr, names[i]);
         if (channel->subsampled)
             return io__fail(file->log, file->path,
                             "channel \"%s\" has fewer samples than pixels (chroma "

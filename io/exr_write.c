@@ -1,36 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /* exr_write.c: one part of scanlines, ZIP, half or float. */
-#include <errno.h>
 #include <string.h>
-
-#include <OpenEXRConfig.h>
 
 #include "exr.h"
 #include "ndc.h"
 
 typedef struct writer {
-    io__output *output;
+    io__exr_sink sink;
     const io_image *image;
-    exr_context_t context;
     exr_pixel_type_t type;
     int part;
-    int io_error; /* errno of a failed write */
 } writer;
-
-/* `fail` is left alone: OpenEXR calls this with the context's lock held, and `fail` takes
- * it again, for ever. */
-static int64_t write_at(exr_const_context_t context, void *user, const void *buffer,
-                        uint64_t size, uint64_t offset, exr_stream_error_func_ptr_t fail)
-{
-    writer *w = user;
-    (void)context;
-    (void)fail;
-    if (io__write_at(fileno(w->output->stream), buffer, size, offset)) {
-        w->io_error = errno;
-        return -1;
-    }
-    return (int64_t)size;
-}
 
 static exr_result_t set_windows(const writer *w)
 {
@@ -51,7 +31,7 @@ static exr_result_t set_windows(const writer *w)
         centre.y = (camera.cy_px - 0.5f * (float)image->display_height) / camera.fy_px;
     }
     return exr_initialize_required_attr(
-        w->context, w->part, &display, &data,
+        w->sink.context, w->part, &display, &data,
         image->pixel_aspect > 0.0f ? image->pixel_aspect : 1.0f, &centre, width,
         EXR_LINEORDER_INCREASING_Y, EXR_COMPRESSION_ZIP);
 }
@@ -60,46 +40,33 @@ static exr_result_t set_matrix(const writer *w, const char *name, const float m[
 {
     exr_attr_m44f_t matrix;
     memcpy(matrix.m, m, sizeof matrix.m);
-    return exr_attr_set_m44f(w->context, w->part, name, &matrix);
-}
-
-/*
- * zlib's level 2 instead of its 6: a float picture of 1920x1080 is packed in three
- * quarters of the time and is 1.4 % larger. Older libraries have no choice.
- */
-static exr_result_t set_level(const writer *w)
-{
-#if OPENEXR_VERSION_MAJOR > 3 || OPENEXR_VERSION_MINOR > 1 || OPENEXR_VERSION_PATCH >= 5
-    return exr_set_zip_compression_level(w->context, w->part, 2);
-#else
-    (void)w;
-    return EXR_ERR_SUCCESS;
-#endif
+    return exr_attr_set_m44f(w->sink.context, w->part, name, &matrix);
 }
 
 static exr_result_t write_header(writer *w)
 {
     const io_image *image = w->image;
     const io_camera_metadata *camera = &image->camera;
-    exr_result_t code = exr_add_part(w->context, "main", EXR_STORAGE_SCANLINE, &w->part);
+    exr_result_t code =
+        exr_add_part(w->sink.context, "main", EXR_STORAGE_SCANLINE, &w->part);
     if (!code)
         code = set_windows(w);
     if (!code)
-        code = set_level(w);
+        code = io__exr_set_level(&w->sink, w->part);
     for (int32_t i = 0; !code && i < image->channel_count; i++) {
         const char *name = image->channels[i].name;
         if (strlen(name) > 31)
-            exr_set_longname_support(w->context, 1);
-        code = exr_add_channel(w->context, w->part, name, w->type,
+            exr_set_longname_support(w->sink.context, 1);
+        code = exr_add_channel(w->sink.context, w->part, name, w->type,
                                EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
     }
     if (!code && image->made[0])
-        code = exr_attr_set_string(w->context, w->part, "crevice", image->made);
+        code = exr_attr_set_string(w->sink.context, w->part, "crevice", image->made);
     if (!code && camera->has_world_to_camera)
         code = set_matrix(w, "worldToCamera", camera->world_to_camera);
     if (!code && camera->has_world_to_ndc)
         code = set_matrix(w, "worldToNDC", camera->world_to_ndc);
-    return code ? code : exr_write_header(w->context);
+    return code ? code : exr_write_header(w->sink.context);
 }
 
 static void aim(const writer *w, exr_encode_pipeline_t *encode, int32_t y)
@@ -120,43 +87,31 @@ static void aim(const writer *w, exr_encode_pipeline_t *encode, int32_t y)
 static exr_result_t pack_chunk(const writer *w, int32_t y, exr_encode_pipeline_t *encode)
 {
     exr_chunk_info_t info;
-    if (io__output_stops(w->output))
+    if (io__output_stops(w->sink.output))
         return EXR_ERR_UNKNOWN;
-    exr_result_t code =
-        exr_write_scanline_chunk_info(w->context, w->part, w->image->data_y + y, &info);
+    exr_result_t code = exr_write_scanline_chunk_info(w->sink.context, w->part,
+                                                      w->image->data_y + y, &info);
     const bool first = !encode->channels;
     if (!code)
-        code = first ? exr_encoding_initialize(w->context, w->part, &info, encode)
-                     : exr_encoding_update(w->context, w->part, &info, encode);
+        code = first ? exr_encoding_initialize(w->sink.context, w->part, &info, encode)
+                     : exr_encoding_update(w->sink.context, w->part, &info, encode);
     if (code)
         return code;
     aim(w, encode, y);
     if (first)
-        code = exr_encoding_choose_default_routines(w->context, w->part, encode);
+        code = exr_encoding_choose_default_routines(w->sink.context, w->part, encode);
     /* Writing waits for its turn: see write_pixels(). */
     encode->yield_until_ready_fn = NULL;
     encode->write_fn = NULL;
-    return code ? code : exr_encoding_run(w->context, w->part, encode);
-}
-
-/*
- * A chunk that has been packed, to the file. Readers take a chunk of exactly its unpacked
- * size for one that is not packed; OpenEXR 3.1.5 would write it packed all the same.
- */
-static exr_result_t write_chunk(const writer *w, exr_encode_pipeline_t *encode)
-{
-    if (encode->compressed_bytes >= encode->packed_bytes)
-        return exr_write_scanline_chunk(w->context, w->part, encode->chunk.start_y,
-                                        encode->packed_buffer, encode->packed_bytes);
-    return exr_write_scanline_chunk(w->context, w->part, encode->chunk.start_y,
-                                    encode->compressed_buffer, encode->compressed_bytes);
+    return code ? code : exr_encoding_run(w->sink.context, w->part, encode);
 }
 
 /* Chunks are packed by all threads and written in their order. */
 static exr_result_t write_pixels(const writer *w)
 {
     int32_t lines = 1;
-    const exr_result_t known = exr_get_scanlines_per_chunk(w->context, w->part, &lines);
+    const exr_result_t known =
+        exr_get_scanlines_per_chunk(w->sink.context, w->part, &lines);
     exr_result_t result = known;
     if (known)
         return known;
@@ -165,12 +120,14 @@ static exr_result_t write_pixels(const writer *w)
         exr_encode_pipeline_t encode = EXR_ENCODE_PIPELINE_INITIALIZER;
         IO__OMP_FOR(ordered schedule(dynamic))
         for (int32_t y = 0; y < w->image->height; y += lines) {
+            const io__exr_chunk chunk = {.y = w->image->data_y + y};
             const exr_result_t code = pack_chunk(w, y, &encode);
             IO__OMP(ordered)
             if (!result)
-                result = code ? code : write_chunk(w, &encode);
+                result = code ? code
+                              : io__exr_write_packed(&w->sink, w->part, &chunk, &encode);
         }
-        exr_encoding_destroy(w->context, &encode);
+        exr_encoding_destroy(w->sink.context, &encode);
     }
     return result;
 }
@@ -193,32 +150,13 @@ static int check_names(const io__output *output, const io_image *image)
 int io__exr_write(io__output *output, const io_image *image,
                   const io_write_options *options)
 {
-    writer w = {.output = output,
-                .image = image,
-                .type = options->half ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT};
-    exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    writer w = {.image = image, .type = options->half ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT};
     if (check_names(output, image))
         return -1;
-    initializer.error_handler_fn = io__exr_say_nothing;
-    initializer.user_data = &w;
-    initializer.write_fn = write_at;
-    exr_result_t code =
-        exr_start_write(&w.context, output->path, EXR_WRITE_FILE_DIRECTLY, &initializer);
-    if (!code) {
+    exr_result_t code = io__exr_sink_open(&w.sink, output);
+    if (!code)
         code = write_header(&w);
-        if (!code)
-            code = write_pixels(&w);
-        /* Writes the table of chunks, so that it can fail too. */
-        const exr_result_t finished = exr_finish(&w.context);
-        code = code ? code : finished;
-    }
-    if (!code && !w.io_error)
-        return 0;
-    if (io__output_stops(output))
-        return io__output_stopped(output);
-    errno = w.io_error;
-    if (w.io_error)
-        return io__output_fail(output);
-    return io__fail(output->log, output->path, "OpenEXR cannot write it (%s); try .pfm",
-                    exr_get_default_error_message(code));
+    if (!code)
+        code = write_pixels(&w);
+    return io__exr_sink_close(&w.sink, code, "try .pfm");
 }

@@ -56,7 +56,7 @@ bool io_keeps_made(const char *path)
     return format == &io__format_exr || format == &io__format_png;
 }
 
-static int open_for_reading(const char *path, const crv_logger *log, io__file *file)
+int io__file_open(const char *path, const crv_logger *log, io__file *file)
 {
     struct stat status;
     /* Asked before opening, because opening a device can do things; and opened without
@@ -113,7 +113,7 @@ static const io__format *recognise(const io__file *file)
 int io_probe(const char *path, io_image *out, const crv_logger *log)
 {
     io__file file;
-    if (open_for_reading(path, log, &file))
+    if (io__file_open(path, log, &file))
         return -1;
     const io__format *format = recognise(&file);
     const int result = format ? format->probe(&file, out) : -1;
@@ -127,7 +127,7 @@ int io_read(const char *path, const char *const *names, int32_t count, io_image 
     io__file file;
     if (names && count < 1)
         return io__fail(log, path, "no channel was asked for; name at least one");
-    if (open_for_reading(path, log, &file))
+    if (io__file_open(path, log, &file))
         return -1;
     const io__format *format = recognise(&file);
     const int result = format ? format->read(&file, names, count, out) : -1;

@@ -54,6 +54,10 @@ int64_t io__read_at(int descriptor, void *bytes, uint64_t size, uint64_t offset)
 /* pwrite() of all bytes: 0, or -1 with errno. */
 int io__write_at(int descriptor, const void *bytes, uint64_t size, uint64_t offset);
 
+/* Half floats by their 16 bits. Rounded to the nearest, ties to even. */
+float io__float_of_half(uint32_t half);
+uint32_t io__half_of_float(float value);
+
 /* A temporary file in the target's folder, open for writing. */
 typedef struct io__output {
     const char *path; /* as the caller wrote it, for messages */
@@ -88,6 +92,9 @@ void io__remove_leftovers(const char *folder, const crv_logger *log);
 
 #define IO__TEMPORARY_PREFIX ".crevice-"
 #define IO__TEMPORARY_SUFFIX ".tmp"
+
+/* Opens a regular file for reading; the caller closes its stream. Logs the error. */
+int io__file_open(const char *path, const crv_logger *log, io__file *file);
 
 /* A row of the format table. The functions log their own errors and return 0 or -1. */
 typedef struct io__format {

@@ -9,6 +9,7 @@ target_link_libraries(crevice_io_support
     PUBLIC crevice_io OpenEXR::OpenEXRCore PNG::PNG PkgConfig::CMOCKA m)
 
 crevice_test(test_io_exr SOURCES test_io_exr.c LIBS crevice_io_support)
+crevice_test(test_io_append SOURCES test_io_append.c LIBS crevice_io_support)
 crevice_test(test_io_formats SOURCES test_io_formats.c LIBS crevice_io_support)
 crevice_test(test_io_bad SOURCES test_io_bad.c LIBS crevice_io_support)
 crevice_test(test_io_normal_fit SOURCES test_io_normal_fit.c LIBS crevice_io_support)

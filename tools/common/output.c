@@ -39,3 +39,17 @@ int output_write(const char *path, const io_image *image, const io_write_options
     report_info(r, "wrote %s", path);
     return EXIT_DONE;
 }
+
+int output_append(const char *input, const char *path, const io_addition *additions,
+                  int32_t count, const io_append_options *options, report *r)
+{
+    io_append_options with_stop = *options;
+    with_stop.stop = interrupt_is_late;
+    interrupt_hold(GRACE_S);
+    const int written = io_append(input, path, additions, count, &with_stop, &r->logger);
+    interrupt_release();
+    if (written != 0)
+        return EXIT_FAILED;
+    report_info(r, "wrote %s", path);
+    return EXIT_DONE;
+}

@@ -3,6 +3,7 @@
 #ifndef TOOL_OUTPUT_H
 #define TOOL_OUTPUT_H
 
+#include "append.h"
 #include "args.h"
 #include "io.h"
 
@@ -17,5 +18,9 @@ int output_check(const char *path, const char *input, report *r);
  */
 int output_write(const char *path, const io_image *image, const io_write_options *options,
                  report *r);
+
+/* The same with a copy of an EXR file. */
+int output_append(const char *input, const char *path, const io_addition *additions,
+                  int32_t count, const io_append_options *options, report *r);
 
 #endif

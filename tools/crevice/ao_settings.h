@@ -16,6 +16,9 @@ typedef struct ao_settings {
     arg_int radius_frame;
     arg_int bits;
     bool half, skip_existing, crop;
+    bool append, replace;
+    const char *channel, *apply;
+    arg_vector tint;
 } ao_settings;
 
 #endif

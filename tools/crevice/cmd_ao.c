@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include "ao_settings.h"
+#include "frame_copy.h"
 #include "commands.h"
 #include "common/camera_file.h"
 #include "common/estimate.h"
@@ -64,6 +65,35 @@ static const arg file_rows[] = {
      .help = "half floats in an EXR"},
 };
 static const arg_table file_table = ARG_TABLE("Files", file_rows);
+
+static const arg append_rows[] = {
+    {.name = "--append",
+     ARG_INTO(ARG_FLAG, ao_settings, append),
+     .help =
+         "write the frame with all that is in it, and AO as a further channel: of its "
+         "part, or as a part if there are several; .exr"},
+    {.name = "--channel",
+     .value = "NAME",
+     .computed = "AO",
+     ARG_INTO(ARG_TEXT, ao_settings, channel),
+     .help = "the name of that channel, such as \"View Layer.AO2\""},
+    {.name = "--replace",
+     ARG_INTO(ARG_FLAG, ao_settings, replace),
+     .help = "replace a channel of that name"},
+    {.name = "--apply",
+     .value = "NAMES",
+     ARG_INTO(ARG_TEXT, ao_settings, apply),
+     .help = "write the frame with AO multiplied into these channels, or the red, green "
+             "and blue of these layers; with commas in between"},
+    {.name = "--tint",
+     .value = "R,G,B",
+     .initial = "0,0,0",
+     ARG_INTO(ARG_VECTOR, ao_settings, tint),
+     .help =
+         "for --apply: what full occlusion leaves of a white surface, 0 to 1; colours "
+         "become c (t + (1 - t) AO)"},
+};
+static const arg_table append_table = ARG_TABLE("In the frame itself", append_rows);
 
 static const arg pass_rows[] = {
     {.name = "--depth",
@@ -173,15 +203,18 @@ static const arg camera_rows[] = {
 };
 static const arg_table camera_table = ARG_TABLE("Camera", camera_rows);
 
-static const arg_table *const tables[] = {&file_table,   &pass_table,  &camera_table,
-                                          &args_threads, &args_device, &args_output_lines,
-                                          NULL};
+static const arg_table *const tables[] = {&file_table,        &append_table, &pass_table,
+                                          &camera_table,      &args_threads, &args_device,
+                                          &args_output_lines, NULL};
 
 static const char *const examples[] = {
     "a frame whose camera was 60 degrees high",
     "crevice ao frame.exr --vfov 60 -o ao.exr",
     "a whole shot",
     "crevice ao shot.####.exr --frames 1-240 --vfov 35 --radius 0.5 -o ao.####.exr",
+    "a shot of Blender, with AO beside its passes",
+    "crevice ao shot.####.exr --frames 1-240 --lens 35 --append --channel \"View "
+    "Layer.AO2\" -o out.####.exr",
     "a depth buffer of a game, without normals",
     "crevice ao depth.pfm --depth-encoding reversed --near 0.1 --far inf --vfov 70 -o "
     "ao.png",
@@ -296,6 +329,8 @@ static int check(const ao_settings *s, frame_list *list, report *r)
         mistake = camera_mistake(s);
     if (!mistake)
         mistake = shot_mistake(s);
+    if (!mistake)
+        mistake = append_mistake(s);
     if (!mistake)
         mistake = frames_mistake(s, list);
     if (mistake) {

@@ -14,6 +14,7 @@
 #include "common/output.h"
 #include "common/progress.h"
 #include "common/radius.h"
+#include "frame_copy.h"
 #include "frame_facts.h"
 
 enum { PATH_SIZE = 4096, LOOKED_AT = 5 };
@@ -101,6 +102,10 @@ static void describe(const shot *t, char made[IO_MADE_SIZE])
                (int)s->camera_order.value);
     append(made, " exact=%d half=%d bits=%d crop=%d", s->common.exact, s->half,
            s->bits.value == 0 ? 8 : 16, s->crop);
+    if (append_is_wanted(s))
+        append(made, " append=%d channel=%s apply=%s tint=%.9g,%.9g,%.9g", s->append,
+               append_channel(s), s->apply ? s->apply : "", s->tint.value[0],
+               s->tint.value[1], s->tint.value[2]);
 }
 
 /* The radius stands last, because a shot that goes on takes it up from there. */
@@ -119,21 +124,34 @@ static bool is_made_so(const shot *t, const char *made, float *radius)
     return true;
 }
 
+/* What made a result; false if it is not whole. */
+static bool read_made(const ao_settings *s, const char *output, char made[IO_MADE_SIZE])
+{
+    io_image image = {0};
+    if (append_is_wanted(s)) {
+        io_append_made(output, append_channel(s), made);
+        return made[0] != '\0';
+    }
+    const bool whole = io_read(output, NULL, 0, &image, NULL) == 0;
+    snprintf(made, IO_MADE_SIZE, "%s", image.made);
+    io_image_free(&image);
+    return whole;
+}
+
 /* Whether a result is there, whole, and made with these settings; its radius is that of
  * the shot. */
 static bool is_done(shot *t, const char *output, report *r)
 {
     struct stat info;
-    io_image image = {0};
+    char made[IO_MADE_SIZE] = "";
     float radius = 0.0f;
     if (stat(output, &info) != 0)
         return false;
-    const bool whole = io_read(output, NULL, 0, &image, NULL) == 0;
+    const bool whole = read_made(t->settings, output, made);
     const bool same =
-        whole && is_made_so(t, image.made, &radius)
+        whole && is_made_so(t, made, &radius)
         && (!t->has_radius
             || fabsf(radius - t->options.radius) <= 1e-6f * t->options.radius);
-    io_image_free(&image);
     if (!same) {
         report_info(r, "%s: is %s; it is made again", output,
                     whole ? "made with other settings" : "not whole");
@@ -191,8 +209,8 @@ static int fix_radius(shot *t, const io_frame *frame, report *r)
     return EXIT_DONE;
 }
 
-static int write_result(const shot *t, const char *path, const io_frame *frame,
-                        io_image *ao, report *r)
+static int write_result(const shot *t, const char *input, const char *path,
+                        const io_frame *frame, io_image *ao, report *r)
 {
     const io_write_options options = {.half = t->settings->half,
                                       .bits = t->settings->bits.value == 0 ? 8 : 16};
@@ -208,6 +226,8 @@ static int write_result(const shot *t, const char *path, const io_frame *frame,
         return EXIT_FAILED;
     snprintf(ao->made, sizeof ao->made, "%s", t->made);
     append(ao->made, "%s%.9g", radius_word, (double)t->options.radius);
+    if (append_is_wanted(t->settings))
+        return append_write(t->settings, input, path, frame, ao, r);
     return output_write(path, ao, &options, r);
 }
 
@@ -295,6 +315,8 @@ static int process(shot *t, const frame_paths *paths, report *r)
     if (result == EXIT_DONE)
         result = load_as_shot(t, paths, &frame, r);
     if (result == EXIT_DONE)
+        result = append_check(t->settings, input, &frame, r);
+    if (result == EXIT_DONE)
         facts_compare(&t->first, &frame, input, r);
     if (result == EXIT_DONE)
         result = upload(&t->estimator, &frame, r);
@@ -307,7 +329,7 @@ static int process(shot *t, const frame_paths *paths, report *r)
     if (result == EXIT_DONE)
         result = facts_check_surface(&t->estimator, &ao, input, r);
     if (result == EXIT_DONE)
-        result = write_result(t, output, &frame, &ao, r);
+        result = write_result(t, input, output, &frame, &ao, r);
     io_image_free(&ao);
     io_frame_free(&frame);
     return result;
