@@ -71,11 +71,12 @@ crv_status crv__input_check(const crv_logger *logger, const char *what,
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "%s: image has %d channels, expected %d", what, image->channels,
                          channels);
-    const ptrdiff_t unit = (ptrdiff_t)sizeof(float),
-                    limit = PTRDIFF_MAX / 4 / CRV_MAX_SIZE;
+    const ptrdiff_t unit = (ptrdiff_t)sizeof(float);
     const ptrdiff_t strides[3] = {image->row_stride, image->pixel_stride,
                                   image->channel_stride};
+    const int32_t counts[3] = {height, width, channels};
     for (int i = 0; i < 3; i++) {
+        const ptrdiff_t limit = PTRDIFF_MAX / 4 / counts[i]; /* three spans fit */
         if (strides[i] % unit != 0 || strides[i] > limit || strides[i] < -limit)
             return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                              "%s: a stride of %td bytes is not a multiple of 4 in range",
