@@ -65,6 +65,7 @@ for device in gpu vulkan: vulkan:x vulkan:-1 vulkan:1x vulkan:99999 vulkan+1 '';
     render 2 '--device: "' $m --device "$device"
 done
 render 2 '--isa: is for the CPU' $m --device vulkan --isa scalar
+render 2 '--isa avx3: not on this machine; there are scalar' $m --isa avx3
 render 2 '--exact: is for the CPU' $m --device vulkan:0 --exact
 
 bad 2 '--size: "0x0"' render $m --size 0x0 -o out.png

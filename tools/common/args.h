@@ -92,7 +92,7 @@ typedef struct common_settings {
     bool quiet, verbose;
     arg_int threads;
     const char *device; /* as written; NULL: the CPU */
-    arg_int isa;        /* index of args_device's choices */
+    const char *isa;    /* as written; NULL: the fastest */
     bool exact;
     /* Of plans on a GPU: what `crevice bench` compares. */
     int32_t depth_layout; /* crv_vulkan_depth_layout */

@@ -10,10 +10,6 @@
 
 #include "progress.h"
 
-/* "auto", then the names in the order of crv_isa. */
-static const char *const isa_choices[] = {"auto",   "scalar", "sse4", "avx2",
-                                          "avx512", "neon",   NULL};
-
 static const arg device_rows[] = {
     {.name = "--device",
      .value = "DEVICE",
@@ -22,13 +18,12 @@ static const arg device_rows[] = {
      .help = "what computes: cpu, or vulkan or vulkan:N, the GPU that `crevice devices` "
              "gives that number (vulkan: 0)"},
     {.name = "--isa",
-     .value = "NAME",
-     .choices = isa_choices,
-     .initial = "auto",
-     ARG_INTO(ARG_CHOICE, common_settings, isa),
+     .value = "ISA",
+     .computed = "the fastest",
+     ARG_INTO(ARG_TEXT, common_settings, isa),
      .help =
-         "instruction set of the CPU's kernels; auto: the fastest that is here. Others "
-         "are for comparing"},
+         "instruction set of the CPU's kernels, one that `crevice devices` lists; for "
+         "comparing"},
     {.name = "--exact",
      ARG_INTO(ARG_FLAG, common_settings, exact),
      .help = "on the CPU, sample exactly where the reference code does: up to 4 times "
@@ -69,6 +64,16 @@ static bool parse_device(const char *name, crv_context_desc *desc)
     return true;
 }
 
+/* Reads --isa; false if this machine has no such set. */
+static bool parse_isa(const char *name, crv_context_desc *desc)
+{
+    const uint32_t available = crv_isa_available();
+    for (int i = CRV_ISA_SCALAR; name && crv_isa_name((crv_isa)i); i++)
+        if (strcmp(crv_isa_name((crv_isa)i), name) == 0)
+            desc->isa_mask = 1u << i & available;
+    return !name || desc->isa_mask;
+}
+
 static int choose_device(const common_settings *common, crv_context_desc *desc, report *r)
 {
     if (!parse_device(common->device, desc)) {
@@ -76,7 +81,7 @@ static int choose_device(const common_settings *common, crv_context_desc *desc, 
                      common->device);
         return EXIT_USAGE;
     }
-    if (desc->device != CRV_DEVICE_CPU && (common->isa.value > 0 || common->exact)) {
+    if (desc->device != CRV_DEVICE_CPU && (common->isa || common->exact)) {
         report_error(r, "%s: is for the CPU; leave it out with --device %s",
                      common->exact ? "--exact" : "--isa", common->device);
         return EXIT_USAGE;
@@ -106,15 +111,12 @@ static int make_context(const common_settings *common, crv_context_desc *desc, r
     desc->exact = common->exact;
     if (choose_device(common, desc, r) != EXIT_DONE)
         return EXIT_USAGE;
-    if (common->isa.value > 0) {
-        desc->isa_mask = 1u << (common->isa.value - 1);
-        if (!(desc->isa_mask & crv_isa_available())) {
-            char names[128];
-            device_list_isas(names, sizeof names);
-            report_error(r, "--isa %s: not on this machine; there are %s",
-                         isa_choices[common->isa.value], names);
-            return EXIT_USAGE;
-        }
+    if (!parse_isa(common->isa, desc)) {
+        char names[128];
+        device_list_isas(names, sizeof names);
+        report_error(r, "--isa %s: not on this machine; there are %s", common->isa,
+                     names);
+        return EXIT_USAGE;
     }
     return report_ok(r, crv_context_create(desc, out), "context")
                    && report_ok(r, tune_plans(common, *out), "context")

@@ -41,7 +41,7 @@ static int open_context(const bench_settings *s, const bench_case *c, memory *m,
     common.depth_layout = c->layout;
     common.half_filters = c->arithmetic == 1;
     if (device_is_cpu(&common)) {
-        common.isa = (arg_int){true, c->isa + 1};
+        common.isa = crv_isa_name((crv_isa)c->isa);
         common.exact = c->structure == 1;
     }
     return device_context_in(&common, &log, &allocator, r, out);
