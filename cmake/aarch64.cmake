@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Compiles for 64-bit Arm on another machine; what runs during the build and in the tests
-# runs under qemu. `./check` builds the library and the test of its kernels with it.
+# runs under qemu. `./check --all` builds the library and its short tests
+# with it.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)

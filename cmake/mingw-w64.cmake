@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # 64-bit Windows by MinGW-w64; tests run under Wine. `./check --all` builds the library and
-# the test of its kernels with it.
+# its short tests with it.
 set(CMAKE_SYSTEM_NAME Windows)
 set(CMAKE_SYSTEM_PROCESSOR x86_64)
 set(CMAKE_C_COMPILER x86_64-w64-mingw32-gcc)

@@ -68,11 +68,15 @@ qemu-aarch64           qemu-user
 -                      libc6-dev-arm64-cross
 '
 
-# The same for 64-bit Windows, and for 32-bit x86.
+# The same for 64-bit Windows, WebAssembly and 32-bit x86.
 needs_windows='
 x86_64-w64-mingw32-gcc  gcc-mingw-w64-x86-64
 wine                    wine
 -                       wine64
+'
+needs_webassembly='
+emcc  emscripten
+node  nodejs
 '
 needs_x86_32() # the compiler's 32-bit libraries carry its version in their name
 {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # 32-bit x86 on a 64-bit machine with gcc's multilib. `./check --all` builds the library and
-# the test of its kernels with it.
+# its short tests with it.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR i686)
 set(CMAKE_C_COMPILER gcc)

@@ -22,10 +22,12 @@ typedef enum crv_isa {
     CRV_ISA_SSE4,   /* x86-64-v2 */
     CRV_ISA_AVX2,   /* with FMA */
     CRV_ISA_AVX512, /* F, BW, DQ and VL */
-    CRV_ISA_NEON    /* AArch64 */
+    CRV_ISA_NEON,   /* AArch64 */
+    CRV_ISA_WASM    /* 128-bit vectors of WebAssembly */
 } crv_isa;
 
-/* "scalar", "sse4", "avx2", "avx512", "neon"; NULL for no such set. Thread-safe. */
+/* "scalar", "sse4", "avx2", "avx512", "neon", "wasm"; NULL for no such set.
+ * Thread-safe. */
 CRV_API const char *crv_isa_name(crv_isa isa);
 
 /* The sets that are built in and that this machine has: a bit 1u << crv_isa for each.

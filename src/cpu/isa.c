@@ -34,7 +34,8 @@ enum { SET_COUNT = sizeof SETS / sizeof SETS[0] };
 
 const char *crv_isa_name(crv_isa isa)
 {
-    static const char *const NAMES[] = {"scalar", "sse4", "avx2", "avx512", "neon"};
+    static const char *const NAMES[] = {"scalar", "sse4", "avx2",
+                                        "avx512", "neon", "wasm"};
     return (unsigned)isa < sizeof NAMES / sizeof NAMES[0] ? NAMES[isa] : NULL;
 }
 

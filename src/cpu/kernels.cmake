@@ -72,6 +72,8 @@ if(CMAKE_C_COMPILER_ID MATCHES "GNU|Clang" AND CMAKE_SYSTEM_PROCESSOR MATCHES "^
     crevice_kernels(sse4 sse4.1)
 elseif(CMAKE_C_COMPILER_ID MATCHES "GNU|Clang" AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
     crevice_kernels(neon) # every AArch64 has it
+elseif(EMSCRIPTEN)
+    crevice_kernels(wasm OPTIONS -msimd128) # a module is for machines with vectors or without
 endif()
 file(CONFIGURE OUTPUT crevice_sets.h CONTENT "${crevice_sets}" @ONLY)
 target_include_directories(crevice PRIVATE ${CMAKE_CURRENT_BINARY_DIR})

@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: MIT
+# WebAssembly by Emscripten; tests run under node. `./check --all` builds the library and its
+# short tests with it.
+execute_process(COMMAND em-config EMSCRIPTEN_ROOT OUTPUT_VARIABLE crevice_emscripten
+    OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+set(EMSCRIPTEN_SYSTEM_PROCESSOR wasm32)
+include(${crevice_emscripten}/cmake/Modules/Platform/Emscripten.cmake)
+
+# Programs are modules for node. The glue of Debian's Emscripten would fetch the module from
+# the network, as newer versions of node can; compiled at once it is read from the disk.
+set(CMAKE_EXE_LINKER_FLAGS_INIT
+    "-sALLOW_MEMORY_GROWTH=1 -sEXIT_RUNTIME=1 -sWASM_ASYNC_COMPILATION=0")
+# The linker runs Debian's modules for node, which only Debian's node looks for there.
+set(CMAKE_C_LINKER_LAUNCHER ${CMAKE_COMMAND} -E env NODE_PATH=/usr/share/nodejs)
