@@ -169,6 +169,9 @@ good ao half.pfm --vfov 60 --depth-encoding reversed --near 1 --far inf -o d2.ex
 good ao half.pfm --ortho 3 --depth-encoding disparity -o d3.exr
 good ao half.pfm --vfov 60 --depth-encoding radial --background 5 -o d4.exr
 
+good help camera
+grep -q 'camera_to_world' stdout.txt || fail "help camera"
+
 # The table of renderers' passes.
 good help passes
 grep -q 'VRayZDepth' stdout.txt && grep -q 'WorldNormal .*left-handed' stdout.txt ||

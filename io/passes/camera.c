@@ -80,6 +80,16 @@ static int find_given(const io_image *image, const io_passes_request *request,
     return 1;
 }
 
+int io__fail_camera(const char *path, const io_passes_request *request,
+                    const crv_logger *log)
+{
+    return io__fail(
+        log, path, "does not say which camera made it; %s",
+        request->remedies.camera
+            ? request->remedies.camera
+            : "give its field of view, or the height of an orthographic view");
+}
+
 int io__find_cameras(const char *path, const io_image *image,
                      const io_passes_request *request,
                      io__camera_guess out[IO__MAX_CAMERAS], const crv_logger *log)
@@ -96,12 +106,6 @@ int io__find_cameras(const char *path, const io_image *image,
         count = find_given(image, request, count ? &described[0] : NULL, &out[0]);
     } else if (count == 0 && find_lens(path, image, &out[0], log)) {
         count = 1;
-    } else if (count == 0) {
-        return io__fail(log, path, "does not say which camera made it; %s",
-                        request->remedies.camera
-                            ? request->remedies.camera
-                            : "give its field of view, or the height of an orthographic "
-                              "view");
     } else {
         for (int i = 0; i < count; i++) {
             out[i] = (io__camera_guess){.camera = described[i].camera,

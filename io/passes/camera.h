@@ -15,10 +15,13 @@ typedef struct io__camera_guess {
 } io__camera_guess;
 
 /* The cameras, the likeliest first; one if the caller gives it. `image` has been read, so
- * that its metadata are those of the depth's part. Returns how many, or -1 after an error
- * line. */
+ * that its metadata are those of the depth's part. Returns how many, 0 if nothing tells
+ * of any: io__fail_camera() then says so and returns -1. */
 int io__find_cameras(const char *path, const io_image *image,
                      const io_passes_request *request,
                      io__camera_guess out[IO__MAX_CAMERAS], const crv_logger *log);
+
+int io__fail_camera(const char *path, const io_passes_request *request,
+                    const crv_logger *log);
 
 #endif

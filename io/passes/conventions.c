@@ -9,6 +9,10 @@
     {                                                                                    \
         .renderer = renderer_, .name = name_, __VA_ARGS__                                \
     }
+#define POSITION(renderer_, name_, ...)                                                  \
+    {                                                                                    \
+        .renderer = renderer_, .name = name_, .kind = IO_PASS_POSITION, __VA_ARGS__      \
+    }
 #define NORMAL(renderer_, name_, ...)                                                    \
     {                                                                                    \
         .renderer = renderer_, .name = name_, .kind = IO_PASS_NORMAL, __VA_ARGS__        \
@@ -39,6 +43,21 @@ const io_convention io_conventions[] = {
     DEPTH("any", "depth_filtered", .encoding = "planar, antialiased"),
     /* Last, because it sees through mirrors. */
     DEPTH("Blender, for its denoiser", "Denoising Depth", .unit = "scene"),
+
+    POSITION("Blender", "Position", .unit = "scene", .background = "0, 0, 0",
+             .axes = "world"),
+    POSITION("LuxCore, Mitsuba, Octane", "Position", .unit = "scene"),
+    POSITION("Arnold, Redshift, Karma, Mantra, RenderMan", "P", .unit = "scene",
+             .axes = "world or camera"),
+    POSITION("pbrt", "P", .axes = "world or camera"),
+    POSITION("any", "WorldPosition", .axes = "world"),
+    POSITION("any", "World_Position", .axes = "world"),
+    POSITION("any", "World Position", .axes = "world"),
+    POSITION("RenderMan", "Pworld", .axes = "world"),
+    POSITION("RenderMan, for its denoiser", "__Pworld", .axes = "world"),
+    POSITION("any", "Pcam", .axes = "camera"),
+    POSITION("Corona", "CGeometry_WorldPosition", .axes = "world"),
+    POSITION("Octane, info passes", "Info_Position", .axes = "world"),
 
     NORMAL("Arnold, Redshift, Karma, Mantra, Cycles", "N", .axes = "world"),
     NORMAL("Blender", "Normal", .axes = "world, right-handed, z up"),

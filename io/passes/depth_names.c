@@ -123,7 +123,8 @@ static const char *depth_remedy(const io_passes_request *request)
 }
 
 static const char *find_depth(const char *path, const io_image *probed,
-                              const io_passes_request *request, const crv_logger *log)
+                              const io_passes_request *request, io__pass_names *out,
+                              const crv_logger *log)
 {
     const char *best = NULL, *second = NULL;
     int best_rank = IO__NO_MATCH, second_rank = IO__NO_MATCH;
@@ -144,6 +145,9 @@ static const char *find_depth(const char *path, const io_image *probed,
             second_rank = rank;
         }
     }
+    /* Depth for a denoiser sees through mirrors, and of "Anything.Z" only Z is known. */
+    if (best_rank >= IO__ANY_Z && io__find_positions(probed, out))
+        return out->position[0];
     if (second && second_rank < IO__NO_MATCH)
         io__info(log, path,
                  "several channels may be depth; \"%s\" is used, not \"%s\" (%s)", best,
@@ -156,10 +160,15 @@ int io__choose_depth(const char *path, const io_image *probed,
                      const crv_logger *log)
 {
     const char *wanted = request->depth;
-    out->depth[0] = wanted ? find_requested_depth(probed, wanted)
-                           : find_depth(path, probed, request, log);
     out->layers = 1;
     out->layer_kind = CRV_LAYERS_SURFACES;
+    if (wanted && io__request_positions(probed, wanted, out))
+        out->depth[0] = out->position[0];
+    else
+        out->depth[0] = wanted ? find_requested_depth(probed, wanted)
+                               : find_depth(path, probed, request, out, log);
+    if (out->position[0])
+        return 0;
     if (!wanted && out->depth[0] && io_keeps_windows(path)
         && !strcasecmp(out->depth[0], "Y"))
         return io__fail(log, path,

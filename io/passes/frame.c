@@ -12,6 +12,7 @@
 #include "mixed.h"
 #include "names.h"
 #include "normals.h"
+#include "positions.h"
 
 /* Blender writes this if a ray met nothing; no renderer writes more for a surface. */
 static const float usual_background = 1e10f;
@@ -78,20 +79,26 @@ static int read_apart(const char *path, const char *const *names, int32_t layers
     return result;
 }
 
+/* How many channels of the image depth or positions take. */
+static int32_t depth_channels(const io__pass_names *chosen)
+{
+    return chosen->position[0] ? 3 : chosen->layers;
+}
+
 static int read_passes(const char *path, const io__pass_names *chosen, io_image *out,
                        const crv_logger *log)
 {
     const char *names[CRV_MAX_LAYERS + 3];
-    int32_t count = 0;
-    for (int32_t i = 0; i < chosen->layers; i++)
-        names[count++] = chosen->depth[i];
+    int32_t count = depth_channels(chosen);
+    memcpy(names, chosen->position[0] ? chosen->position : chosen->depth,
+           (size_t)count * sizeof *names);
     if (!chosen->normal[0])
         return io_read(path, names, count, out, log);
     for (int c = 0; c < 3; c++)
         names[count++] = chosen->normal[c];
     if (!io_read(path, names, count, out, NULL))
         return 0;
-    return read_apart(path, names, chosen->layers, count, out, log);
+    return read_apart(path, names, depth_channels(chosen), count, out, log);
 }
 
 static crv_image view_of(const io_image *image, int32_t first, int32_t channels)
@@ -251,19 +258,35 @@ static void settle_mixed(const char *path, io_frame *frame, const crv_logger *lo
                  (long long)mixed);
 }
 
+/* The cameras that may have made the frame, the likeliest first: how many, or -1. */
+static int settle_cameras(const char *path, const io_passes_request *request,
+                          const io__pass_names *names, io_frame *frame,
+                          io__camera_guess cameras[IO__MAX_CAMERAS],
+                          const crv_logger *log)
+{
+    const int count = io__find_cameras(path, &frame->image, request, cameras, log);
+    io__camera_guess fitted;
+    if (!names->position[0])
+        return count ? count : io__fail_camera(path, request, log);
+    if (io__settle_positions(path, request, frame, cameras, count, &fitted, log))
+        return -1;
+    cameras[0] = fitted;
+    return 1;
+}
+
 static int settle(const char *path, const io_passes_request *request,
                   const io__pass_names *names, io_frame *frame, const crv_logger *log)
 {
     io__camera_guess cameras[IO__MAX_CAMERAS];
     io__verdict verdict;
     const bool given_normals = names->normal[0];
-    const int count = io__find_cameras(path, &frame->image, request, cameras, log);
+    const int count = settle_cameras(path, request, names, frame, cameras, log);
     if (count < 0)
         return -1;
     for (int32_t i = 0; i < names->layers; i++)
         frame->depth[i] = view_of(&frame->image, i, 1);
     if (given_normals) {
-        frame->normals = view_of(&frame->image, names->layers, 3);
+        frame->normals = view_of(&frame->image, depth_channels(names), 3);
         io__decode_normals(path, request, frame, log);
     }
     const crv_depth_format format =

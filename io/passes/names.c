@@ -13,10 +13,17 @@ int io__choose_passes(const char *path, const io_image *probed,
     if (io__choose_depth(path, probed, request, out, log)
         || io__choose_normals(path, probed, request, out, log))
         return -1;
-    io__info(log, path, "depth: \"%s\" (%d layer%s%s); normals: %s%s%s", out->depth[0],
-             (int)out->layers, out->layers > 1 ? "s" : "",
-             out->layer_kind == CRV_LAYERS_SOLID ? " of solids" : "",
-             out->normal[0] ? "\"" : "", out->normal[0] ? out->normal_base : "from depth",
-             out->normal[0] ? "\"" : "");
+    if (out->position[0])
+        io__info(log, path, "positions: \"%s\" and so on; normals: %s%s%s",
+                 out->position[0], out->normal[0] ? "\"" : "",
+                 out->normal[0] ? out->normal_base : "from depth",
+                 out->normal[0] ? "\"" : "");
+    else
+        io__info(log, path, "depth: \"%s\" (%d layer%s%s); normals: %s%s%s",
+                 out->depth[0], (int)out->layers, out->layers > 1 ? "s" : "",
+                 out->layer_kind == CRV_LAYERS_SOLID ? " of solids" : "",
+                 out->normal[0] ? "\"" : "",
+                 out->normal[0] ? out->normal_base : "from depth",
+                 out->normal[0] ? "\"" : "");
     return 0;
 }

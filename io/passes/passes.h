@@ -40,7 +40,8 @@ typedef struct io_pose {
 /* What the caller knows. Zeroed (with depth_format = crv_depth_format_planar()): find
  * all. */
 typedef struct io_passes_request {
-    const char *depth;  /* name of the depth channel; NULL: find it */
+    const char *depth;  /* name of the depth channel, or of a layer of positions without
+                           the component; NULL: find it */
     const char *normal; /* name of the normals without the component ("N", "View.Normal"),
                            "none" to ignore normals; NULL: find them */
     crv_depth_format

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* vector_names.c: which layers are normals. */
+/* vector_names.c: which layers are normals and positions. */
 #include <string.h>
 #include <strings.h>
 
@@ -12,22 +12,74 @@ static const char *normal_remedy(const io_passes_request *request)
     return request->remedies.normal ? request->remedies.normal : "name the normals";
 }
 
+static int position_rank(const char *name, size_t length)
+{
+    static const char *const others[] = {"ref",   "rest",   "object",
+                                         "local", "screen", "composition"};
+    const io__pieces s = io__split_layer(name, name + length);
+    const int row = io__row_of(&s, IO_PASS_POSITION);
+    if (row >= 0)
+        return row;
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
+        if (io__contains(s.layer, s.layer_length, others[i]))
+            return IO__NO_MATCH;
+    return io__contains(s.layer, s.layer_length, "position") ? IO__LOOKS_LIKE
+                                                             : IO__NO_MATCH;
+}
+
+bool io__find_positions(const io_image *probed, io__pass_names *out)
+{
+    int best_rank = IO__NO_MATCH;
+    for (int32_t i = 0; i < probed->channel_count; i++) {
+        const char *name = probed->channels[i].name;
+        const char *found[3];
+        const size_t length = io__vector_base_length(name);
+        const int rank = length ? position_rank(name, length) : IO__NO_MATCH;
+        if (rank >= best_rank || !io__find_components(probed, name, length, found))
+            continue;
+        best_rank = rank;
+        memcpy(out->position, found, sizeof found);
+    }
+    return best_rank < IO__NO_MATCH;
+}
+
+bool io__request_positions(const io_image *probed, const char *wanted,
+                           io__pass_names *out)
+{
+    const char *found[3];
+    if (io_image_find(probed, wanted)
+        || !io__find_components(probed, wanted, strlen(wanted), found))
+        return false;
+    /* A grey depth may have been written as colour. */
+    const size_t length = strlen(found[0]);
+    if (strchr("Rr", found[0][length - 1])
+        && position_rank(wanted, strlen(wanted)) == IO__NO_MATCH)
+        return false;
+    memcpy(out->position, found, sizeof found);
+    return true;
+}
+
 /* Whether the normals are of the depth's part or view layer, and of its eye. Of "right.Z"
  * the prefix is "right": that is no name for depth, but a view or a layer. */
-static bool is_together(const char *depth, const char *name, const io__pieces *normal)
+static bool is_together(const io__pass_names *chosen, const char *name,
+                        const io__pieces *normal)
 {
-    const io__pieces s = io__split_channel(depth, true);
-    const bool named = !s.component[0] || io__depth_name_rank(depth, true) < IO__NO_MATCH;
+    const char *depth = chosen->depth[0];
+    const size_t base = chosen->position[0] ? io__vector_base_length(depth) : 0;
+    const io__pieces s =
+        base ? io__split_layer(depth, depth + base) : io__split_channel(depth, true);
+    const bool named =
+        base || !s.component[0] || io__depth_name_rank(depth, true) < IO__NO_MATCH;
     const size_t prefix = named ? s.prefix : s.prefix + s.layer_length + 1;
     return prefix == normal->prefix && !strncasecmp(name, depth, prefix)
            && s.view_length == normal->view_length
            && !strncasecmp(s.view, normal->view, s.view_length);
 }
 
-static int normal_rank(const char *name, size_t length, const char *depth)
+static int normal_rank(const char *name, size_t length, const io__pass_names *chosen)
 {
     const io__pieces s = io__split_layer(name, name + length);
-    const int apart = is_together(depth, name, &s) ? 0 : (int)io_convention_count;
+    const int apart = is_together(chosen, name, &s) ? 0 : (int)io_convention_count;
     const int row = io__row_of(&s, IO_PASS_NORMAL);
     if (row >= 0)
         return apart + row;
@@ -44,7 +96,7 @@ static void find_normals(const char *path, const io_image *probed,
         const char *name = probed->channels[i].name;
         const char *found[3];
         const size_t length = io__vector_base_length(name);
-        const int rank = length ? normal_rank(name, length, out->depth[0]) : IO__NO_MATCH;
+        const int rank = length ? normal_rank(name, length, out) : IO__NO_MATCH;
         if (rank == IO__NO_MATCH || !io__find_components(probed, name, length, found))
             continue;
         matches++;

@@ -100,7 +100,7 @@ static const arg pass_rows[] = {
      .value = "NAME",
      .computed = "found by its name",
      ARG_INTO(ARG_TEXT, ao_settings, depth),
-     .help = "the depth channel"},
+     .help = "the depth channel, or positions without .X .Y .Z"},
     {.name = "--normal",
      .value = "NAME",
      .computed = "found by its name",

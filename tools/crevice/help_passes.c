@@ -29,8 +29,14 @@ void help_passes(FILE *out)
                  "that depth implies must agree with those that are given.\n\nDepth, as "
                  "NAME.Z, .V, .R, .T or a channel itself:\n");
     print_rows(out, IO_PASS_DEPTH);
+    fprintf(out,
+            "\nPositions, which stand for depth that is missing and tell the camera, "
+            "as NAME.X .Y .Z, .R .G .B or\nNAMEX NAMEY NAMEZ:\n");
+    print_rows(out, IO_PASS_POSITION);
     fprintf(out, "\nNormals, as NAME.X .Y .Z, .R .G .B or NAMEX NAMEY NAMEZ:\n");
     print_rows(out, IO_PASS_NORMAL);
-    fprintf(out, "\nOther names are taken if they contain \"depth\" or \"normal\"; "
-                 "--depth and --normal choose any.\n");
+    fprintf(
+        out,
+        "\nOther names are taken if they contain \"depth\", \"position\" or \"normal\"; "
+        "--depth and --normal choose any.\n");
 }
