@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "shot.h"
 
-#include <inttypes.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,6 +14,7 @@
 #include "common/radius.h"
 #include "frame_copy.h"
 #include "frame_facts.h"
+#include "made.h"
 
 enum { PATH_SIZE = 4096, LOOKED_AT = 5 };
 
@@ -28,7 +27,7 @@ typedef struct shot {
     crv_options options;
     bool has_radius;   /* the user's, or that of the first frame that shows anything */
     frame_facts first; /* of the first frame */
-    char made[IO_MADE_SIZE]; /* the settings, without the radius */
+    char made[IO_MADE_SIZE]; /* the settings, without the state */
     estimator estimator;
 } shot;
 
@@ -49,118 +48,62 @@ static int name_frame(const ao_settings *s, int32_t frame, frame_paths *paths, r
     return EXIT_USAGE;
 }
 
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
-static void
-append(char made[IO_MADE_SIZE], const char *format, ...)
+/* What the frame of a result has left to those after it. */
+static void take_up(shot *t, const made_state *state)
 {
-    const size_t used = strlen(made);
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(made + used, IO_MADE_SIZE - used, format, arguments);
-    va_end(arguments);
-}
-
-static void append_number(char made[IO_MADE_SIZE], const char *name, const arg_number *n)
-{
-    if (n->given)
-        append(made, " %s=%.9g", name, n->value);
-}
-
-/* Whatever changes the result, so that two results can be told apart. */
-static void describe(const shot *t, char made[IO_MADE_SIZE])
-{
-    const ao_settings *s = t->settings;
-    const crv_options *o = &t->options;
-    made[0] = '\0';
-    append(made, "crevice %s ao: method=%s filter=%s", crv_version(), o->method->name,
-           o->filter ? o->filter->name : "none");
-    for (int32_t i = 0; i < crv_option_count(); i++) {
-        const crv_option *option = crv_option_at(i);
-        if (strcmp(option->key, "radius") != 0
-            && crv_option_applies(option, o->method, o->filter))
-            append(made, " %s=%.9g", option->key, crv_options_get(o, option));
+    if (state->has_radius) {
+        t->options.radius = state->radius;
+        t->has_radius = true;
     }
-    append(made, " depth=%s normal=%s space=%d flip=%s", s->depth ? s->depth : "",
-           s->normal ? s->normal : "", (int)s->normal_space.value,
-           s->normal_flip ? s->normal_flip : "");
-    if (s->depth_encoding.given)
-        append(made, " encoding=%d", (int)s->depth_encoding.value);
-    if (s->layer_kind.given)
-        append(made, " layers=%d", (int)s->layer_kind.value);
-    append_number(made, "near", &s->z_near);
-    append_number(made, "far", &s->z_far);
-    append_number(made, "background", &s->background);
-    append_number(made, "vfov", &s->vfov_deg);
-    append_number(made, "hfov", &s->hfov_deg);
-    append_number(made, "lens", &s->lens_mm);
-    append_number(made, "sensor", &s->sensor_mm);
-    append_number(made, "ortho", &s->ortho);
-    if (s->camera)
-        append(made, " camera=%016" PRIx64 ",%d", t->cameras.checksum,
-               (int)s->camera_order.value);
-    append(made, " exact=%d half=%d bits=%d crop=%d", s->common.exact, s->half,
-           s->bits.value == 0 ? 8 : 16, s->crop);
-    if (append_is_wanted(s))
-        append(made, " append=%d channel=%s apply=%s tint=%.9g,%.9g,%.9g", s->append,
-               append_channel(s), s->apply ? s->apply : "", s->tint.value[0],
-               s->tint.value[1], s->tint.value[2]);
+    t->request.usual_reading = state->reading;
+    t->request.depth_format.encoding = state->encoding;
+    t->request.is_later = true;
 }
 
-/* The radius stands last, because a shot that goes on takes it up from there. */
-static const char radius_word[] = " radius=";
-
-static bool is_made_so(const shot *t, const char *made, float *radius)
-{
-    const size_t length = strlen(t->made);
-    if (strncmp(made, t->made, length) != 0
-        || strncmp(made + length, radius_word, sizeof radius_word - 1) != 0)
-        return false;
-    double value;
-    if (!args_number(made + length + sizeof radius_word - 1, &value) || !(value > 0.0))
-        return false;
-    *radius = (float)value;
-    return true;
-}
-
-/* What made a result; false if it is not whole. */
-static bool read_made(const ao_settings *s, const char *output, char made[IO_MADE_SIZE])
-{
-    io_image image = {0};
-    if (append_is_wanted(s)) {
-        io_append_made(output, append_channel(s), made);
-        return made[0] != '\0';
-    }
-    const bool whole = io_read(output, NULL, 0, &image, NULL) == 0;
-    snprintf(made, IO_MADE_SIZE, "%s", image.made);
-    io_image_free(&image);
-    return whole;
-}
-
-/* Whether a result is there, whole, and made with these settings; its radius is that of
- * the shot. */
+/* Whether a result is there, whole, and made with these settings. */
 static bool is_done(shot *t, const char *output, report *r)
 {
     struct stat info;
-    char made[IO_MADE_SIZE] = "";
-    float radius = 0.0f;
+    char made[IO_MADE_SIZE];
+    made_state state;
     if (stat(output, &info) != 0)
         return false;
-    const bool whole = read_made(t->settings, output, made);
+    const bool whole = made_read(t->settings, output, made);
     const bool same =
-        whole && is_made_so(t, made, &radius)
-        && (!t->has_radius
-            || fabsf(radius - t->options.radius) <= 1e-6f * t->options.radius);
+        whole && made_matches(t->made, made, &state)
+        && (!t->has_radius || !state.has_radius
+            || fabsf(state.radius - t->options.radius) <= 1e-6f * t->options.radius);
     if (!same) {
         report_info(r, "%s: is %s; it is made again", output,
                     whole ? "made with other settings" : "not whole");
         return false;
     }
-    t->options.radius = radius;
-    t->has_radius = true;
+    take_up(t, &state);
     report_info(r, "%s: is there, and made with these settings", output);
     return true;
+}
+
+/* The first result that is there gives the radius, so that frames before it, which failed
+ * or were lost, do not choose another. */
+static int find_made_radius(shot *t, report *r)
+{
+    frame_paths paths;
+    char made[IO_MADE_SIZE];
+    made_state state;
+    if (!t->settings->skip_existing || !t->list)
+        return EXIT_DONE;
+    for (int32_t i = 0; i < frames_count(t->list) && !t->has_radius; i++) {
+        const int result = name_frame(t->settings, frames_at(t->list, i), &paths, r);
+        if (result != EXIT_DONE)
+            return result;
+        made_glance(t->settings, paths.output, made);
+        if (!made_matches(t->made, made, &state) || !state.has_radius)
+            continue;
+        t->options.radius = state.radius;
+        t->has_radius = true;
+        report_info(r, "radius: %g, of %s", (double)state.radius, paths.output);
+    }
+    return EXIT_DONE;
 }
 
 static int upload(estimator *e, const io_frame *frame, report *r)
@@ -225,7 +168,10 @@ static int write_result(const shot *t, const char *input, const char *path,
     if (!io_keeps_windows(path) && facts_fill_display(ao, r) != EXIT_DONE)
         return EXIT_FAILED;
     snprintf(ao->made, sizeof ao->made, "%s", t->made);
-    append(ao->made, "%s%.9g", radius_word, (double)t->options.radius);
+    made_add_state(ao->made, &(made_state){.has_radius = t->has_radius,
+                                           .radius = t->options.radius,
+                                           .reading = t->request.usual_reading,
+                                           .encoding = t->request.depth_format.encoding});
     if (append_is_wanted(t->settings))
         return append_write(t->settings, input, path, frame, ao, r);
     return output_write(path, ao, &options, r);
@@ -341,7 +287,7 @@ static int find_radius(shot *t, report *r)
     frame_paths paths;
     io_frame frame = {0};
     if (!t->settings->radius_frame.given)
-        return EXIT_DONE;
+        return find_made_radius(t, r);
     int result = name_frame(t->settings, t->settings->radius_frame.value, &paths, r);
     if (result == EXIT_DONE)
         result = load_as_shot(t, &paths, &frame, r);
@@ -428,7 +374,7 @@ int shot_run(const ao_settings *settings, const io_passes_request *request,
                                   : EXIT_DONE;
     if (result != EXIT_DONE)
         return result;
-    describe(&t, t.made);
+    made_describe(settings, &t.options, t.cameras.checksum, t.made);
     result = estimate_open(&t.estimator, &settings->common, r);
     if (result == EXIT_DONE)
         result = find_radius(&t, r);
