@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "fixture.h"
 
-#include "without_shader.h"
-
 #include <math.h>
 #include <string.h>
 
@@ -159,11 +157,6 @@ int fixture_on_vulkan(void)
 {
     const char *device = getenv("CREVICE_TEST_DEVICE");
     return device && strcmp(device, "vulkan") == 0;
-}
-
-int fixture_computes(const char *name)
-{
-    return !fixture_on_vulkan() || !is_without_shader(name);
 }
 
 static crv_context *make_context(const fixture_run *run, crv_device device)

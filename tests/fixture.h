@@ -64,9 +64,6 @@ typedef struct fixture_run {
 /* Whether frames are computed on a Vulkan device: CREVICE_TEST_DEVICE is "vulkan". */
 int fixture_on_vulkan(void);
 
-/* Whether the device can compute this method or filter. */
-int fixture_computes(const char *name);
-
 /* A context with the strict logger: a new one on the CPU, or the one of the process on
  * the Vulkan device. */
 crv_context *fixture_context_open(void);

@@ -171,8 +171,6 @@ static void converged_methods_meet_the_groove(void **state)
         groove g = make_groove(C[k]);
         for (int i = 0; i < FORM_COUNT; i++) {
             const closed_form *form = &FORMS[i];
-            if (!fixture_computes(form->method))
-                continue;
             const double exact = 1 - form->occlusion(g.c);
             const double a = estimate(&g, form, MUCH);
             printf(
@@ -254,8 +252,6 @@ static void error_falls_with_samples(void **state)
     for (int i = 0; i < FORM_COUNT * 3; i++) {
         const closed_form *form = &FORMS[i / 3];
         const refinement *r = &REFINEMENTS[i % 3];
-        if (!fixture_computes(form->method))
-            continue;
         /* A ray meets the groove once, so that containment knows all of it from one point
          * and its steps find nothing more. */
         if (strcmp(r->option, "steps") == 0 && strcmp(form->method, "containment") == 0)
@@ -299,7 +295,7 @@ static void a_plane_does_not_occlude_itself(void **state)
     static const double TILTS[] = {0, 10, 30, 45, 60, 75, 80, 85};
     for (int32_t m = 0; m < crv_method_count(); m++) {
         const char *method = crv_method_at(m)->name;
-        if (strcmp(method, "ssao") == 0 || !fixture_computes(method))
+        if (strcmp(method, "ssao") == 0)
             continue; /* half of ssao's points lie behind any surface */
         for (int k = 0; k < 8 * 4; k++) {
             const int orthographic = k & 1, without_normals = k >> 1 & 1;

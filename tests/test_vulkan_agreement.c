@@ -9,7 +9,6 @@
  * What differs is printed with what repeats it. Exit code 77: there is no device.
  */
 #include "simd.h"
-#include "without_shader.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -192,8 +191,6 @@ static int check_many(const settings *s, const devices *d)
     int faults = 0;
     for (int32_t i = 0; s->cases > 0 && i < crv_method_count(); i++) {
         const crv_method *method = crv_method_at(i);
-        if (is_without_shader(method->name))
-            continue;
         simd_random r = simd_random_make(s->seed, stream_of("many"), (uint64_t)i);
         simd_case *c = simd_case_make(&r, method, NULL, 0, FEW_PIXELS, SIMD_SMOOTH);
         if (c) {
@@ -222,7 +219,7 @@ static int check_all(const settings *s, const devices *d)
         const crv_filter *filter = k >= 0 ? crv_filter_at(k) : NULL;
         const crv_method *method = crv_method_at(k >= 0 ? 0 : i);
         const char *name = filter ? filter->name : method->name;
-        if ((s->test && strcmp(s->test, name) != 0) || is_without_shader(name))
+        if (s->test && strcmp(s->test, name) != 0)
             continue;
         faults += check(s, d, name, method, filter);
         tests++;

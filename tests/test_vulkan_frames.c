@@ -126,19 +126,22 @@ static void odd_sizes_agree_with_the_cpu(void **state)
     }
 }
 
-/* Dynamic resolution: the pass is for the largest size, with each layout of depth. */
+/* Dynamic resolution: the pass is for the largest size, with each layout of depth, and
+ * with a map that lies as depth does. */
 static void smaller_frames_are_those_of_a_smaller_pass(void **state)
 {
+    static const char *const METHODS[] = {"hbao", "bitmask"};
     stage *t = open_stage(state, &USUAL, 150, 97);
-    const crv_options options = scene_options(&t->e);
     crv_vulkan_frame frame = scene_frame(t->s, &t->e, &t->in);
-    for (int layout = 0; layout < 3; layout++) {
+    for (int i = 0; i < 5; i++) {
         float *got[2];
+        t->e.method = METHODS[i / 3];
+        const crv_options options = scene_options(&t->e);
         for (int large = 0; large < 2; large++) {
             crv_vulkan_pass_desc desc = scene_pass_desc(&t->e);
             crv_gbuffer_desc size;
             crv_vulkan_pass *pass = NULL;
-            desc.depth_layout = (crv_vulkan_depth_layout)layout;
+            desc.depth_layout = (crv_vulkan_depth_layout)(i % 3);
             crv_gbuffer_desc_init(&size, sizeof size, large ? 200 : 150,
                                   large ? 131 : 97);
             frame.width = large ? 150 : 0;
@@ -328,6 +331,49 @@ static void options_change_without_another_pass(void **state)
     free(d);
     crv_vulkan_pass_destroy(other);
     crv_vulkan_pass_destroy(pass);
+    close_stage(t);
+}
+
+/* bitmask's map is a step and an image, which other rules do without. */
+static void widths_are_made_only_if_asked_for(void **state)
+{
+    scene_encoding e = USUAL;
+    e.method = "bitmask";
+    e.filter = NULL;
+    stage *t = open_stage(state, &e, 150, 97);
+    crv_options options[2] = {scene_options(&e), scene_options(&e)};
+    options[1].thickness_rule = CRV_THICKNESS_RUN;
+    crv_vulkan_pass *pass[2];
+    float *got[4];
+    crv_device_time times[CRV_MAX_DEVICE_TIMES];
+    int32_t count = 0;
+    const crv_vulkan_frame frame = scene_frame(t->s, &e, &t->in);
+    for (int i = 0; i < 2; i++) {
+        crv_vulkan_pass_desc desc = scene_pass_desc(&e);
+        desc.timestamps = VK_TRUE;
+        assert_int_equal(
+            crv_vulkan_pass_create(t->context, &options[i], &t->s->desc, &desc, &pass[i]),
+            CRV_OK);
+        got[i] = drawn(t, pass[i], &frame);
+        assert_int_equal(crv_vulkan_pass_times(pass[i], 0, times, &count), CRV_OK);
+        assert_int_equal(count, i ? 2 : 3); /* depth and normals, width, bitmask */
+        assert_string_equal(times[1].name, i ? "bitmask" : "width");
+    }
+    assert_true(crv_vulkan_pass_bytes(pass[0]) - crv_vulkan_pass_bytes(pass[1])
+                >= pixels_of(t) * sizeof(float));
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(crv_vulkan_pass_set_options(pass[0], &options[1 - i]), CRV_OK);
+        got[2 + i] = drawn(t, pass[0], &frame);
+    }
+    assert_same(got[1], got[2], pixels_of(t));
+    assert_same(got[0], got[3], pixels_of(t));
+    assert_true(rmse(got[0], got[1], pixels_of(t)) > 0.001);
+    assert_refused(t, crv_vulkan_pass_set_options(pass[1], &options[0]),
+                   CRV_ERROR_UNSUPPORTED, "thickness_rule is fixed");
+    for (int i = 0; i < 4; i++)
+        free(got[i]);
+    crv_vulkan_pass_destroy(pass[0]);
+    crv_vulkan_pass_destroy(pass[1]);
     close_stage(t);
 }
 
@@ -653,6 +699,7 @@ int main(void)
         cmocka_unit_test(views_share_images_and_a_command_buffer),
         cmocka_unit_test(results_are_layers_of_an_array),
         cmocka_unit_test(options_change_without_another_pass),
+        cmocka_unit_test(widths_are_made_only_if_asked_for),
         cmocka_unit_test(plans_take_new_options_as_passes_do),
         cmocka_unit_test(what_is_fixed_is_refused_by_name),
         cmocka_unit_test(noise_of_its_own_makes_frames_converge),

@@ -129,8 +129,8 @@ CRV_API void crv_plan_destroy(crv_plan *plan);
  *   - another method or noise_size;
  *   - a filter instead of none, or none instead of a filter;
  *   - with a guard band, a filter of another radius;
- *   - directions, steps or samples that take more memory than at first, as a larger or an
- *     odd number may;
+ *   - more or odd directions, steps or samples that take more memory than at first, or
+ *     thickness_rule width if it was another;
  *   - on a Vulkan device, all that crv_vulkan_pass_set_options() calls fixed.
  *
  * Errors, with the plan unchanged: INVALID_ARGUMENT; UNSUPPORTED, with a line that names

@@ -211,7 +211,8 @@ CRV_API void crv_vulkan_pass_destroy(crv_vulkan_pass *pass);
  * New option values for all later recordings. Costs nothing and takes no memory, so it
  * may be called each frame. These are fixed when the pass is created: method, filter,
  * falloff, directions, steps, spacing, normal_rays, samples, attenuation, noise_size and
- * filter_slope, whether bias_deg is 0, and whether filter_normal allows half floats.
+ * filter_slope, whether bias_deg is 0, and whether filter_normal allows half floats. So
+ * is thickness_rule, but only if it was not width at first and shall be.
  * Errors, with nothing changed: INVALID_ARGUMENT; UNSUPPORTED, with a line that names the
  * option, if it is fixed.
  */

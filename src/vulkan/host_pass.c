@@ -155,10 +155,13 @@ crv_status crv_vulkan_pass_set_options(crv_vulkan_pass *p, const crv_options *op
         return status;
     const crv_options before = p->setup.options;
     const char *key = crv__pass_fixes(&p->pass, &full);
-    if (key || !crv__setup_revise(&p->setup, &full))
+    if (!key)
+        key = crv__setup_obstacle(&p->setup, &full);
+    if (key)
         return crv__fail(logger, CRV_ERROR_UNSUPPORTED,
                          "pass: %s is fixed when a pass is created; create another one",
-                         key ? key : "an option");
+                         key);
+    crv__setup_revise(&p->setup, &full);
     if (patterns_differ(&before, &full))
         crv__setup_fill(&p->setup);
     return CRV_OK;

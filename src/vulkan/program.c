@@ -163,6 +163,8 @@ static crv_status take_pipelines(crv__program *p, const crv__setup *setup)
         status = take_other(p, "deinterleave", GROUP, p->desc.edge, &p->deinterleave);
     if (status == CRV_OK && p->desc.level_px > 0)
         status = take_other(p, "prefilter", GROUP, 1, &p->prefilter);
+    if (status == CRV_OK && setup->map)
+        status = take_other(p, setup->map->name, GROUP, p->desc.edge, &p->map);
     return status;
 }
 
@@ -186,7 +188,7 @@ void crv__program_destroy(crv__program *p)
     const VkPipeline pipelines[] = {p->convert.pipeline,   p->depth.pipeline,
                                     p->estimate.pipeline,  p->filter[0].pipeline,
                                     p->filter[1].pipeline, p->deinterleave.pipeline,
-                                    p->prefilter.pipeline};
+                                    p->prefilter.pipeline, p->map.pipeline};
     for (size_t i = 0; i < sizeof pipelines / sizeof pipelines[0]; i++)
         crv__pipeline_give(d, pipelines[i]);
     *p = (crv__program){0};

@@ -31,6 +31,7 @@ typedef struct crv__program {
      * other layers. */
     crv__pipeline convert, depth;
     crv__pipeline deinterleave, prefilter; /* only if the desc says so */
+    crv__pipeline map;                     /* only if the setup has one */
     crv__pipeline estimate, filter[CRV__MOST_PASSES];
     crv__program_desc desc;
     int32_t parts;     /* dispatches of the estimate */

@@ -236,6 +236,19 @@ static void record_levels(recorder *r)
     wait_between(r);
 }
 
+/* What the estimate reads beside depth and normals, if these options need it. */
+static void record_map(recorder *r)
+{
+    const crv__map *map = crv__setup_map(r->job->setup);
+    if (!map)
+        return;
+    begin_step(r, map->name);
+    set_output(r, r->whole, 0, 0);
+    dispatch(r, &r->program->map, r->slot->map_set);
+    end_step(r);
+    wait_between(r);
+}
+
 /* The output of the last step if `is_last`, else of an image of the pass. */
 static void set_accessibility_output(recorder *r, bool is_last, VkDescriptorSet set)
 {
@@ -326,6 +339,7 @@ void crv__record(crv__slot *slot, VkCommandBuffer commands, const crv__job *job)
     if (!job->filter_only) {
         record_deinterleave(&r);
         record_levels(&r);
+        record_map(&r);
         record_estimate(&r);
     }
     record_filter(&r);

@@ -39,6 +39,9 @@ crv_status crv__scratch_create(crv__scratch *s, const crv__program *p,
                                            .height = (g->height + edge - 1) / edge,
                                            .layers = g->layers * edge * edge,
                                            .levels = 1};
+    crv__image_desc map = deinterleaved; /* not at all if the edge is 1 */
+    map.name = "map";
+    map.layers = edge * edge;
     const crv__image_desc sums = {.name = "sums",
                                   .format = VK_FORMAT_R32G32_SFLOAT,
                                   .width = r.width,
@@ -50,6 +53,7 @@ crv_status crv__scratch_create(crv__scratch *s, const crv__program *p,
         [CRV__SCRATCH_ACCESSIBILITY] = &accessibility,
         [CRV__SCRATCH_FILTERED] = p->passes ? &accessibility : NULL,
         [CRV__SCRATCH_DEINTERLEAVED] = edge > 1 ? &deinterleaved : NULL,
+        [CRV__SCRATCH_MAP] = setup->map ? &map : NULL,
         [CRV__SCRATCH_SUMS] = p->parts > 1 ? &sums : NULL,
         [CRV__SCRATCH_SUMS + 1] = p->parts > 1 ? &sums : NULL};
     crv_status status = CRV_OK;

@@ -12,6 +12,7 @@ enum {
     CRV__SCRATCH_ACCESSIBILITY, /* the estimate */
     CRV__SCRATCH_FILTERED,      /* only if there is a filter */
     CRV__SCRATCH_DEINTERLEAVED, /* depth, only if the program reads it so */
+    CRV__SCRATCH_MAP,           /* only if the setup has one; lies as depth does */
     CRV__SCRATCH_SUMS, /* of an estimate's parts, two, only if there are several */
     CRV__SCRATCH_IMAGES = CRV__SCRATCH_SUMS + 2
 };

@@ -93,15 +93,17 @@ static void bind_all(crv__slot *s, const numbers_layout *l, VkDescriptorSet set,
     }
     d->vk.UpdateDescriptorSets(d->device, CRV__BIND_DEPTH, writes, 0, NULL);
     const crv__image *image = s->scratch->image;
-    const VkImageView normals = image[CRV__SCRATCH_NORMALS].view;
-    const VkImageView views[CRV__BINDINGS] = {[CRV__BIND_DEPTH] =
-                                                  image[CRV__SCRATCH_DEPTH].view,
+    const VkImageView normals = image[CRV__SCRATCH_NORMALS].view,
+                      depth = image[CRV__SCRATCH_DEPTH].view,
+                      map = image[CRV__SCRATCH_MAP].view;
+    const VkImageView views[CRV__BINDINGS] = {[CRV__BIND_DEPTH] = depth,
                                               [CRV__BIND_NORMALS] = normals,
                                               [CRV__BIND_INPUT] = input,
                                               [CRV__BIND_OUTPUT] = output,
                                               [CRV__BIND_HOST_DEPTH] = normals,
                                               [CRV__BIND_HOST_NORMALS] = normals,
-                                              [CRV__BIND_NORMALS_OUTPUT] = normals};
+                                              [CRV__BIND_NORMALS_OUTPUT] = normals,
+                                              [CRV__BIND_MAP] = map ? map : depth};
     for (uint32_t i = CRV__BIND_DEPTH; i < CRV__BINDINGS; i++)
         crv__slot_bind_image(s, set, i, views[i], VK_IMAGE_LAYOUT_GENERAL);
 }
@@ -148,13 +150,18 @@ static void bind_sets(crv__slot *s, const crv__setup *setup)
     bind_estimate(s, &l, first, second);
     for (int32_t i = 0; i < s->program->passes; i++)
         bind_all(s, &l, s->filter_set[i], i % 2 ? second : first, i % 2 ? first : second);
+    if (s->map_set) {
+        bind_all(s, &l, s->map_set, first, image[CRV__SCRATCH_MAP].view);
+        crv__slot_bind_image(s, s->map_set, CRV__BIND_DEPTH, depth_of_estimate(s),
+                             VK_IMAGE_LAYOUT_GENERAL);
+    }
     if (s->deinterleave_set)
         bind_all(s, &l, s->deinterleave_set, first,
                  image[CRV__SCRATCH_DEINTERLEAVED].view);
 }
 
 enum {
-    MOST_SETS = CRV_MAX_LAYERS * CRV__MOST_LEVELS + 4 + CRV__MOST_PASSES,
+    MOST_SETS = CRV_MAX_LAYERS * CRV__MOST_LEVELS + 5 + CRV__MOST_PASSES,
 };
 
 /* The sets that the program needs; their count. */
@@ -176,6 +183,8 @@ static uint32_t list_sets(crv__slot *s, VkDescriptorSet *sets[MOST_SETS])
         sets[count++] = &s->part_set[i];
     if (p->deinterleave.pipeline)
         sets[count++] = &s->deinterleave_set;
+    if (p->map.pipeline)
+        sets[count++] = &s->map_set;
     return count;
 }
 
@@ -189,7 +198,7 @@ static VkResult create_sets(crv__slot *s)
         {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count},
         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count * 3},
         {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, count * 2},
-        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count * 5}};
+        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count * 6}};
     const VkDescriptorPoolCreateInfo pool = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
         .maxSets = count,

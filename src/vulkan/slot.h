@@ -5,9 +5,9 @@
 
 #include "vulkan/scratch.h"
 
-/* Upload, or each depth layer; deinterleave, levels, estimate, filter passes, download.
+/* Upload, or each depth layer; deinterleave, levels, map, estimate, filter, download.
  */
-enum { CRV__MOST_STEPS = CRV_MAX_LAYERS + 4 + CRV__MOST_PASSES };
+enum { CRV__MOST_STEPS = CRV_MAX_LAYERS + 5 + CRV__MOST_PASSES };
 _Static_assert((int)CRV__MOST_STEPS <= CRV_MAX_DEVICE_TIMES, "a time for each step");
 
 typedef struct crv__slot {
@@ -17,7 +17,7 @@ typedef struct crv__slot {
     VkDescriptorPool pool;
     /* A conversion of each depth layer, the first with the normals; the estimate, its
      * parts before the last; the filter's passes, to and fro. */
-    VkDescriptorSet depth_set[CRV_MAX_LAYERS], deinterleave_set, estimate_set,
+    VkDescriptorSet depth_set[CRV_MAX_LAYERS], deinterleave_set, map_set, estimate_set,
         part_set[2], filter_set[CRV__MOST_PASSES],
         level_set[CRV_MAX_LAYERS][CRV__MOST_LEVELS];
     VkQueryPool queries;                /* VK_NULL_HANDLE: none */

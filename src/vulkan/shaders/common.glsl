@@ -63,6 +63,7 @@ layout(set = 0, binding = 7) uniform writeonly image2D output_image;
 layout(set = 0, binding = 8) uniform sampler2D host_depth; /* of one layer */
 layout(set = 0, binding = 9) uniform sampler2D host_normals;
 layout(set = 0, binding = 10) uniform writeonly image2D normal_output;
+layout(set = 0, binding = 11) uniform sampler2DArray map_image; /* lies as depth does */
 
 layout(push_constant) uniform Push
 {
@@ -162,6 +163,13 @@ float depth_at(ivec2 at, int layer)
     return texelFetch(depth_image, depth_texel(at, layer), 0).r;
 }
 
+/* The method's map at a pixel; beyond the buffers the border's. */
+float map_at(ivec2 at)
+{
+    const ivec2 inside = clamp(at, ivec2(0), ivec2(params.width - 1, params.height - 1));
+    return texelFetch(map_image, depth_texel(inside, 0), 0).r;
+}
+
 /* Neither background nor NaN. Bits are compared, since a compiler may take for granted
  * that there are no infinities. */
 bool is_surface(float depth)
@@ -254,11 +262,13 @@ vec2 direction_of(int k)
     return direction_table[k];
 }
 
-#ifndef OUTPUT_ARRAY
 void write_output(ivec2 at, vec4 value)
 {
+#ifdef OUTPUT_ARRAY
+    imageStore(output_image, depth_texel(at, 0), value);
+#else
     imageStore(output_image, at + ivec2(push.store_x, push.store_y), value);
-}
 #endif
+}
 
 #endif

@@ -128,7 +128,7 @@ bool slice_texel(SliceSite site, Slice s, int i, out SliceTexel t)
         return false;
     precise vec2 place = vec2(site.at) + 0.5 + distance_px * s.way;
     t.texel = ivec2(floor(place));
-    t.near = clamp(slice_spaced(float(i)) * s.length_px / distance_px, 0.5, 1.0);
+    t.near = min(1.0, max(0.5, slice_spaced(float(i)) * s.length_px) / distance_px);
     t.far = max(1.0, slice_spaced(float(i + 1)) * s.length_px / distance_px);
     return true;
 }
