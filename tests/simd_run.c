@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* Runs of the library between guard bytes. */
+#include "aligned.h"
 #include "simd.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-#if defined(_WIN32)
-#include <malloc.h>
-#endif
 
 enum { GUARD = 192, GUARD_BYTE = 0xa5 };
 
@@ -28,24 +26,6 @@ typedef struct keeper {
 static unsigned char *user_part(const guarded *g)
 {
     return (unsigned char *)g->block + GUARD;
-}
-
-static void *take_aligned(size_t alignment, size_t size)
-{
-#if defined(_WIN32)
-    return _aligned_malloc(size, alignment);
-#else
-    return aligned_alloc(alignment, size);
-#endif
-}
-
-static void give_aligned(void *block)
-{
-#if defined(_WIN32)
-    _aligned_free(block);
-#else
-    free(block);
-#endif
 }
 
 static void *allocate(void *user, size_t size, size_t alignment)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The library's manners: arguments, memory, threads, order of calls. */
+#include "aligned.h"
 #include "fixture.h"
 
 #include <math.h>
@@ -22,8 +23,7 @@ static void *counting_allocate(void *user, size_t size, size_t alignment)
     if (c->calls == c->fail_at)
         return NULL;
     assert_true(alignment >= 64 && (alignment & (alignment - 1)) == 0);
-    void *memory =
-        aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    void *memory = take_aligned(alignment, size);
     assert_non_null(memory);
     c->live++;
     c->bytes += (int64_t)size;
@@ -36,7 +36,7 @@ static void counting_release(void *user, void *memory, size_t size)
     assert_non_null(memory);
     c->live--;
     c->bytes -= (int64_t)size;
-    free(memory);
+    give_aligned(memory);
 }
 
 typedef struct objects {
