@@ -51,7 +51,8 @@ SYSTEM = {
     "src/shared": {"stddef.h", "stdint.h"},  # offsetof pins layouts
     # The systems' allocators, threads and locales.
     "src/base": STANDARD
-    | {"malloc.h", "omp.h", "pthread.h", "sys/mman.h", "unistd.h", "xlocale.h"},
+    | {"malloc.h", "omp.h", "process.h", "pthread.h", "sys/mman.h", "unistd.h", "windows.h",
+       "xlocale.h"},
     "src/core": STANDARD,
     "src/methods": STANDARD,
     "src/filters": STANDARD,

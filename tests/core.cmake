@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Tests of libcrevice itself.
 add_library(crevice_fixture STATIC fixture.c)
-target_link_libraries(crevice_fixture PRIVATE crevice_flags PUBLIC crevice::crevice PkgConfig::CMOCKA m)
+target_link_libraries(crevice_fixture PRIVATE crevice_flags PUBLIC crevice::crevice PkgConfig::CMOCKA ${CREVICE_LIBM})
 
 # Short ones, which run on every target.
 crevice_test(test_gbuffer SOURCES test_gbuffer.c LIBS crevice_fixture)
@@ -11,6 +11,10 @@ crevice_test(test_ao SOURCES test_ao.c LIBS crevice_fixture)
 crevice_test(test_camera SOURCES test_camera.c LIBS crevice_fixture)
 crevice_test(test_filters SOURCES test_filters.c LIBS crevice_fixture)
 crevice_test(test_rows SOURCES test_rows.c LIBS crevice_fixture)
+if(NOT EMSCRIPTEN) # its modules have one thread
+    crevice_test(test_parallel SOURCES test_parallel.c ${PROJECT_SOURCE_DIR}/src/base/parallel.c)
+    target_include_directories(test_parallel PRIVATE ${PROJECT_SOURCE_DIR}/src)
+endif()
 if(CMAKE_CROSSCOMPILING)
     return()
 endif()
@@ -23,8 +27,6 @@ add_test(NAME test_ao_many_threads COMMAND test_ao)
 set_tests_properties(test_ao_many_threads PROPERTIES
     ENVIRONMENT OMP_NUM_THREADS=100000 TIMEOUT ${CREVICE_TEST_TIMEOUT})
 crevice_test(test_set_options SOURCES test_set_options.c LIBS crevice_fixture)
-crevice_test(test_parallel SOURCES test_parallel.c ${PROJECT_SOURCE_DIR}/src/base/parallel.c)
-target_include_directories(test_parallel PRIVATE ${PROJECT_SOURCE_DIR}/src)
 crevice_test(test_locale SOURCES test_locale.c LIBS crevice_fixture)
 crevice_test(test_noise SOURCES test_noise.c LIBS crevice_internal)
 crevice_test(test_thickness SOURCES test_thickness.c fixture.c LIBS crevice_internal)
