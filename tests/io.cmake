@@ -6,7 +6,7 @@ add_library(crevice_io_support STATIC test_io_support.c)
 target_compile_definitions(crevice_io_support PUBLIC _XOPEN_SOURCE=700)
 target_link_libraries(crevice_io_support
     PRIVATE crevice_flags
-    PUBLIC crevice_io OpenEXR::OpenEXRCore PNG::PNG PkgConfig::CMOCKA m)
+    PUBLIC crevice_io OpenEXR::OpenEXRCore PNG::PNG PkgConfig::CMOCKA ${CREVICE_LIBM})
 
 crevice_test(test_io_exr SOURCES test_io_exr.c LIBS crevice_io_support)
 crevice_test(test_io_append SOURCES test_io_append.c LIBS crevice_io_support)

@@ -30,6 +30,12 @@ style_test(style_scripts ${Python3_EXECUTABLE} ${here}/check_scripts.py)
 style_test(style_format sh ${here}/check_format.sh ${PROJECT_SOURCE_DIR})
 style_test(style_headers sh ${here}/check_headers.sh
     ${PROJECT_SOURCE_DIR}/include ${CMAKE_C_COMPILER} g++)
+if(TARGET crevice_shaders)
+    get_target_property(shaders crevice_shaders CREVICE_INCLUDE)
+endif()
+style_test(style_msvc ${Python3_EXECUTABLE} ${here}/check_msvc.py ${PROJECT_SOURCE_DIR}
+    "${shaders}" "${CREVICE_VULKAN_HEADERS}")
+set_tests_properties(style_msvc PROPERTIES LABELS once) # it compiles the library
 style_test(style_setup bash ${here}/check_setup.sh ${PROJECT_SOURCE_DIR})
 
 foreach(kind shared static)

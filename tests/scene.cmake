@@ -2,7 +2,7 @@
 find_package(PNG REQUIRED)
 add_library(test_scene_support STATIC test_scene_support.c)
 target_link_libraries(test_scene_support
-    PUBLIC crevice_scene PkgConfig::CMOCKA m PRIVATE crevice_flags)
+    PUBLIC crevice_scene PkgConfig::CMOCKA ${CREVICE_LIBM} PRIVATE crevice_flags)
 
 foreach(subject IN ITEMS load import far gltf normals frame raycast layers gbuffer texture sky
         shade)

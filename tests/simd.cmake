@@ -2,7 +2,7 @@
 # The kernels against the specification. Needs nothing but the library, so that it is
 # built and run for other machines too.
 add_executable(test_simd test_simd.c simd_case.c simd_run.c)
-target_link_libraries(test_simd PRIVATE crevice::crevice crevice_flags m)
+target_link_libraries(test_simd PRIVATE crevice::crevice crevice_flags ${CREVICE_LIBM})
 target_include_directories(test_simd PRIVATE ${PROJECT_BINARY_DIR}/src) # crevice_sets.h
 get_property(crevice_sets GLOBAL PROPERTY CREVICE_SETS)
 foreach(set IN LISTS crevice_sets)

@@ -2,7 +2,7 @@
 # The Vulkan backend, on whatever device is first: lavapipe where there is no GPU. Tests
 # are skipped where there is none, unless CI is set.
 add_executable(test_vulkan_agreement test_vulkan_agreement.c simd_case.c)
-target_link_libraries(test_vulkan_agreement PRIVATE crevice::crevice crevice_flags m)
+target_link_libraries(test_vulkan_agreement PRIVATE crevice::crevice crevice_flags ${CREVICE_LIBM})
 # The seed is fixed, so that a change is judged by itself; by hand every run has another.
 # Sanitizers look at the C code, which is much the same in every case.
 set(crevice_vulkan_cases 20)

@@ -65,7 +65,9 @@ function(crevice_kernels set)
     set_property(GLOBAL APPEND PROPERTY CREVICE_SETS ${set})
 endfunction()
 
-if(CMAKE_C_COMPILER_ID MATCHES "GNU|Clang" AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|i.86)$")
+if(MSVC)
+    # It lacks the operators on vectors that kernels use: plain C only.
+elseif(CMAKE_C_COMPILER_ID MATCHES "GNU|Clang" AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|i.86)$")
     crevice_kernels(avx512 avx2 fma avx512f avx512bw avx512dq avx512vl
         OPTIONS -mprefer-vector-width=512)
     crevice_kernels(avx2 avx2 fma)

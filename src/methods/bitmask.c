@@ -76,7 +76,10 @@ static uint32_t from(float sector)
 
 static float count(uint32_t bits)
 {
-    return (float)__builtin_popcount(bits);
+    bits -= bits >> 1 & 0x55555555u; /* sums of neighbours, of pairs, of fours */
+    bits = (bits & 0x33333333u) + (bits >> 2 & 0x33333333u);
+    bits = (bits + (bits >> 4)) & 0x0f0f0f0fu;
+    return (float)(bits * 0x01010101u >> 24);
 }
 
 static void add_body(sectors *to, const crv__params *p, const crv__slice_site *site,
