@@ -105,10 +105,34 @@ static void find_made(const reader *r, char made[IO_MADE_SIZE])
             snprintf(made, IO_MADE_SIZE, "%s", texts[i].text);
 }
 
+/* libpng takes the memory that a chunk announces before it reads the chunk: each must fit
+ * in the file. (PNG specification, 5.3: length, type, data, CRC.) */
+static int check_chunks(reader *r)
+{
+    unsigned char head[8];
+    for (uint64_t at = 8; at < (uint64_t)r->file->size;) {
+        const int64_t got = io__read_at(fileno(r->file->stream), head, sizeof head, at);
+        r->io_error = got < 0 ? errno : 0;
+        if (got < (int64_t)sizeof head)
+            break;
+        at += 12
+              + ((uint64_t)head[0] << 24 | (uint64_t)head[1] << 16
+                 | (uint64_t)head[2] << 8 | head[3]);
+        if (at > (uint64_t)r->file->size)
+            break;
+        if (!memcmp(head + 4, "IEND", 4))
+            return 0;
+    }
+    snprintf(r->message.text, sizeof r->message.text, "it ends in the middle");
+    return damaged(r);
+}
+
 static int open_reader(const io__file *file, reader *r)
 {
     memset(r, 0, sizeof *r);
     r->file = file;
+    if (check_chunks(r))
+        return -1;
     r->png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &r->message, io__png_error,
                                     io__png_warning);
     r->info = r->png ? png_create_info_struct(r->png) : NULL;
