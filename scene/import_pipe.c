@@ -13,7 +13,10 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "internal.h"
+
 enum { RECORD_MESSAGE = 1, RECORD_RESULT = 2, MAX_LINE = 1023, MAX_MESSAGES = 100 };
+enum { FIRST_BYTES = 1 << 20 };
 
 typedef struct record {
     int32_t kind, level; /* level: of a message */
@@ -170,20 +173,44 @@ static import_end receive_bytes(int fd, double deadline, void *data, size_t size
     return IMPORT_DONE;
 }
 
+/* Memory is taken as the bytes come: what is only announced costs nothing. */
+static import_end receive_block(int fd, double deadline, size_t size, size_t spare,
+                                void **out)
+{
+    char *block = NULL;
+    size_t got = 0;
+    import_end end = IMPORT_DONE;
+    do {
+        const size_t left = size - got, most = got ? got : FIRST_BYTES;
+        const size_t more = left < most ? left : most;
+        char *grown = realloc(block, got + more + spare + 1);
+        if (!grown) {
+            end = IMPORT_NO_MEMORY;
+            break;
+        }
+        block = grown;
+        end = receive_bytes(fd, deadline, block + got, more);
+        got += more;
+    } while (end == IMPORT_DONE && got < size);
+    *out = block;
+    return end;
+}
+
 static import_end receive_message(int fd, double deadline, const record *head,
                                   int *errors, const crv_logger *log)
 {
     char line[MAX_LINE + 1];
-    if (head->size > MAX_LINE || head->level < CRV_LOG_ERROR
+    if (head->size < 1 || head->size > MAX_LINE || head->level < CRV_LOG_ERROR
         || head->level > CRV_LOG_INFO)
         return IMPORT_DAMAGED;
     const import_end end = receive_bytes(fd, deadline, line, (size_t)head->size);
     if (end != IMPORT_DONE)
         return end;
-    for (size_t i = 0; i < head->size; i++)
-        if ((unsigned char)line[i] < 32)
-            line[i] = ' ';
     line[head->size] = '\0';
+    for (size_t i = 0; i < head->size; i++)
+        if (!line[i])
+            line[i] = ' ';
+    scene_clean_line(line);
     *errors += head->level == CRV_LOG_ERROR;
     if (log && log->fn)
         log->fn(log->user, (crv_log_level)head->level, line);
@@ -244,9 +271,9 @@ static import_end receive_masks(int fd, double deadline, mesh *m)
             || mask->height > MESH_MAX_MASK)
             return IMPORT_DAMAGED;
         const size_t size = (size_t)mask->width * (size_t)mask->height;
-        mask->alpha = malloc(size);
-        end = mask->alpha ? receive_bytes(fd, deadline, mask->alpha, size)
-                          : IMPORT_NO_MEMORY;
+        void *alpha = NULL;
+        end = receive_block(fd, deadline, size, 0, &alpha);
+        mask->alpha = alpha;
     }
     return end;
 }
@@ -265,13 +292,9 @@ static import_end receive_result(int fd, double deadline, const record *head, im
         || counts.camera_count > INT16_MAX)
         return IMPORT_DAMAGED;
     list_parts(out, &counts, parts);
-    for (int i = 0; i < PART_COUNT && end == IMPORT_DONE; i++) {
-        const size_t size = (size_t)parts[i].count * parts[i].element_size;
-        *parts[i].data = malloc(size + parts[i].spare + 1);
-        if (!*parts[i].data)
-            return IMPORT_NO_MEMORY;
-        end = receive_bytes(fd, deadline, *parts[i].data, size);
-    }
+    for (int i = 0; i < PART_COUNT && end == IMPORT_DONE; i++)
+        end = receive_block(fd, deadline, (size_t)parts[i].count * parts[i].element_size,
+                            parts[i].spare, parts[i].data);
     out->mesh.vertex_count = out->mesh.vertex_capacity = (size_t)counts.vertex_count;
     out->mesh.triangle_count = out->mesh.triangle_capacity =
         (size_t)counts.triangle_count;

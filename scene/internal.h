@@ -34,7 +34,11 @@ typedef struct scene_axes {
 /* False if the view's numbers make no camera. */
 bool scene_axes_of_view(const scene_view *view, const double origin[3], scene_axes *out);
 
-/* Logs "NAME: text" as one line: control characters of foreign text become spaces. */
+/* Control characters, those of UTF-8 included, and bytes that are no UTF-8 become
+ * spaces. */
+void scene_clean_line(char *line);
+
+/* Logs "NAME: text" as one clean line. */
 void scene_log(const crv_logger *log, crv_log_level level, const char *name,
                const char *format, ...)
 #ifdef __GNUC__
