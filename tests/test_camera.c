@@ -272,6 +272,13 @@ static void other_matrices_are_refused(void **state)
     m[2] = 0.5f; /* oblique near plane: a camera, but no depth format */
     assert_int_equal(understand(m), CRV_OK);
     assert_int_equal(crv_depth_format_from_projection(&format, m, 0, 0, NULL), bad);
+    m[2] = 0;
+    m[5] = 3e38f; /* a focal length of 2 * 3e38 px is no float */
+    assert_int_equal(understand(m), bad);
+    m[5] = 1;
+    m[15] = 1e-38f;
+    m[0] = m[5] = 3.0f; /* the same, by a tiny w */
+    assert_int_equal(understand(m), bad);
 }
 
 /* A world that is left-handed turns normals by a reflection; degrees are told apart from

@@ -96,8 +96,10 @@ crv_status crv_camera_from_projection(crv_camera *out, const float m[16],
     camera.fy_px = (float)(p.m[1][1] * up / w * 0.5 * height);
     camera.cx_px = (float)((1 + shift_x) * 0.5 * width);
     camera.cy_px = (float)((1 - shift_y * up) * 0.5 * height);
-    *out = camera;
-    return CRV_OK;
+    const crv_status checked = crv__camera_check(logger, &camera); /* floats overflow */
+    if (checked == CRV_OK)
+        *out = camera;
+    return checked;
 }
 
 /* The planar depths at which the buffer holds 0 and 1. Perspective: v = a + b / d;
@@ -142,14 +144,15 @@ crv_status crv_depth_format_from_projection(crv_depth_format *out, const float m
     double at[2];
     depths_at_ends(&p, range, at);
     const bool reversed = at[1] < at[0];
-    const double z_near = reversed ? at[1] : at[0], z_far = reversed ? at[0] : at[1];
+    const float z_near = (float)(reversed ? at[1] : at[0]);
+    const float z_far = (float)(reversed ? at[0] : at[1]);
     if (!isfinite(z_near) || (p.is_perspective && !(z_near > 0)) || !(z_far > z_near))
         return refuse(logger, "the row of z maps no near plane before a far one; is the "
                               "range of clip-space z right?");
     *out =
         (crv_depth_format){.encoding = reversed ? CRV_DEPTH_REVERSED : CRV_DEPTH_HARDWARE,
-                           .z_near = (float)z_near,
-                           .z_far = (float)z_far,
+                           .z_near = z_near,
+                           .z_far = z_far,
                            .background = INFINITY};
     return CRV_OK;
 }
