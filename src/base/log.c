@@ -12,6 +12,10 @@ static void log_line(const crv_logger *logger, crv_log_level level, const char *
         return;
     char line[512];
     crv__number_print(line, sizeof line, format, arguments);
+    /* Words from outside: what they hold beyond ASCII may steer a terminal. */
+    for (char *c = line; *c; c++)
+        if (*c < 0x20 || *c > 0x7e)
+            *c = '?';
     logger->fn(logger->user, level, line);
 }
 
