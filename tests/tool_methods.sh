@@ -15,19 +15,22 @@ plausible() {
     at_most "$(number mean_a)" 0.99 "$1: mean accessibility"
 }
 
-scene="builtin:courtyard --size 160x90"
+scene="builtin:corner --size 160x90"
+radius="--radius 0.5"
 # shellcheck disable=SC2086 # $scene is words
 good gbuffer $scene -o passes.exr
 for method in $methods; do
     # shellcheck disable=SC2086
     for preset in "" paper; do
-        good render $scene -o "$method$preset.exr" --method "$method" ${preset:+--preset $preset}
+        good render $scene -o "$method$preset.exr" $radius --method "$method" ${preset:+--preset $preset}
         grep -q "^$method " stderr.txt || fail "no line about $method"
         plausible "$method $preset" "$method$preset.exr"
     done
-    good ao passes.exr -o default.exr --method "$method"
+    # shellcheck disable=SC2086
+    good ao passes.exr -o default.exr $radius --method "$method"
     for preset in low medium high ultra; do
-        good ao passes.exr -o $preset.exr --method "$method" --preset $preset
+        # shellcheck disable=SC2086
+        good ao passes.exr -o $preset.exr $radius --method "$method" --preset $preset
         plausible "$method $preset" $preset.exr
     done
     # medium is what there is without a preset.
@@ -41,7 +44,7 @@ done
 
 # What a method does not read is told of, and changes nothing.
 # shellcheck disable=SC2086
-good render $scene -o steps.exr --method ssao --steps 5
+good render $scene -o steps.exr $radius --method ssao --steps 5
 grep -q '^crevice: warning: steps: .*ssao' stderr.txt || fail "no warning of --steps with ssao"
 good compare --json ssao.exr steps.exr
 at_most "$(number max_error)" 0 "an option that ssao does not read"
