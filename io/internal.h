@@ -29,6 +29,9 @@ void io__info(const crv_logger *log, const char *path, const char *format, ...)
 int io__fail_channel(const crv_logger *log, const char *path, const char *wanted,
                      const io_image *image);
 
+/* The channel whose name is nearest, or NULL if none is near. */
+const char *io__nearest_channel(const io_image *image, const char *wanted);
+
 /* Writes "A, B, C" into out, cut short with "... (N in all)" if it does not fit. */
 void io__list_channels(const io_image *image, char *out, size_t size);
 

@@ -91,7 +91,7 @@ static size_t edit_distance(const char *a, const char *b)
     return row[columns];
 }
 
-static const char *nearest_channel(const io_image *image, const char *wanted)
+const char *io__nearest_channel(const io_image *image, const char *wanted)
 {
     const char *best = NULL;
     if (strlen(wanted) >= IO_NAME_SIZE)
@@ -112,7 +112,7 @@ int io__fail_channel(const crv_logger *log, const char *path, const char *wanted
                      const io_image *image)
 {
     char list[1500], hint[IO_NAME_SIZE + 32] = "choose one of them";
-    const char *nearest = nearest_channel(image, wanted);
+    const char *nearest = io__nearest_channel(image, wanted);
     io__list_channels(image, list, sizeof list);
     if (nearest)
         snprintf(hint, sizeof hint, "did you mean \"%s\"?", nearest);

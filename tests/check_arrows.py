@@ -66,7 +66,7 @@ OWNED = {
     r"(openexr|OpenEXR|zlib)": ("io",),
     r"png": ("io", "scene"),
     r"(embree\d*/|assimp/)": ("scene",),
-    r"(cjson/|cJSON)": ("tools/", "scene"),
+    r"(cjson/|cJSON)": ("tools/", "scene", "io"),
     r"gtk/": ("tools/view",),
     r"Python\.h": ("python",),
 }

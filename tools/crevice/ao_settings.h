@@ -18,6 +18,7 @@ typedef struct ao_settings {
     bool half, skip_existing, crop;
     bool append, replace;
     const char *channel, *apply;
+    const char *receive, *occlude; /* mattes, as io_matte_read() takes them */
     arg_vector tint;
 } ao_settings;
 

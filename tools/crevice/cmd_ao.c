@@ -93,6 +93,23 @@ static const arg append_rows[] = {
          "for --apply: what full occlusion leaves of a white surface, 0 to 1; colours "
          "become c (t + (1 - t) AO)"},
 };
+static const arg mask_rows[] = {
+    {.name = "--receive",
+     .value = "MATTE",
+     .computed = "everything",
+     ARG_INTO(ARG_TEXT, ao_settings, receive),
+     .help = "what is darkened, the rest is 1: a matte CHANNEL; CHANNEL=ID,ID for object "
+             "ids; crypto:NAME,NAME for objects of a Cryptomatte, with * and ?; not:... "
+             "for everything else"},
+    {.name = "--occlude",
+     .value = "MATTE",
+     .computed = "everything",
+     ARG_INTO(ARG_TEXT, ao_settings, occlude),
+     .help = "what darkens, in the same words; the rest is as if it were not there, and "
+             "gets 1"},
+};
+static const arg_table mask_table = ARG_TABLE("Parts of the frame", mask_rows);
+
 static const arg_table append_table = ARG_TABLE("In the frame itself", append_rows);
 
 static const arg pass_rows[] = {
@@ -203,9 +220,9 @@ static const arg camera_rows[] = {
 };
 static const arg_table camera_table = ARG_TABLE("Camera", camera_rows);
 
-static const arg_table *const tables[] = {&file_table,        &append_table, &pass_table,
-                                          &camera_table,      &args_threads, &args_device,
-                                          &args_output_lines, NULL};
+static const arg_table *const tables[] = {&file_table,  &append_table,      &mask_table,
+                                          &pass_table,  &camera_table,      &args_threads,
+                                          &args_device, &args_output_lines, NULL};
 
 static const char *const examples[] = {
     "a frame whose camera was 60 degrees high",
@@ -215,6 +232,8 @@ static const char *const examples[] = {
     "a shot of Blender, with AO beside its passes",
     "crevice ao shot.####.exr --frames 1-240 --lens 35 --append --channel \"View "
     "Layer.AO2\" -o out.####.exr",
+    "the set darkens the hero, and nothing else is darkened",
+    "crevice ao frame.exr --vfov 35 --receive 'crypto:hero*' -o hero_ao.exr",
     "a depth buffer of a game, without normals",
     "crevice ao depth.pfm --depth-encoding reversed --near 0.1 --far inf --vfov 70 -o "
     "ao.png",

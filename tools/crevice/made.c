@@ -59,6 +59,10 @@ void made_describe(const ao_settings *s, const crv_options *o, uint64_t cameras,
         append(made, " camera=%016" PRIx64 ",%d", cameras, (int)s->camera_order.value);
     append(made, " exact=%d half=%d bits=%d crop=%d", s->common.exact, s->half,
            s->bits.value == 0 ? 8 : 16, s->crop);
+    if (s->receive)
+        append(made, " receive=%s", s->receive);
+    if (s->occlude)
+        append(made, " occlude=%s", s->occlude);
     if (append_is_wanted(s))
         append(made, " append=%d channel=%s apply=%s tint=%.9g,%.9g,%.9g", s->append,
                append_channel(s), s->apply ? s->apply : "", s->tint.value[0],

@@ -15,6 +15,7 @@
 #include "frame_copy.h"
 #include "frame_facts.h"
 #include "made.h"
+#include "masks.h"
 
 enum { PATH_SIZE = 4096, LOOKED_AT = 5 };
 
@@ -243,11 +244,11 @@ static int load_as_shot(shot *t, const frame_paths *paths, io_frame *frame, repo
             result = load(t, paths, frame, r);
         }
     }
-    if (result == EXIT_DONE) {
-        t->request.is_later = true;
-        t->request.depth_format.encoding = frame->encoding;
-    }
-    return result;
+    if (result != EXIT_DONE)
+        return result;
+    t->request.is_later = true;
+    t->request.depth_format.encoding = frame->encoding;
+    return masks_take_out(t->settings, paths->input, frame, r);
 }
 
 static int process(shot *t, const frame_paths *paths, report *r)
@@ -274,6 +275,8 @@ static int process(shot *t, const frame_paths *paths, report *r)
         result = estimate_run(&t->estimator, &ao, r);
     if (result == EXIT_DONE)
         result = facts_check_surface(&t->estimator, &ao, input, r);
+    if (result == EXIT_DONE)
+        result = masks_open(t->settings, input, &frame, &ao, r);
     if (result == EXIT_DONE)
         result = write_result(t, input, output, &frame, &ao, r);
     io_image_free(&ao);
