@@ -35,6 +35,8 @@ void fuzz_text(const uint8_t *data, size_t size);
 void fuzz_checkpoint(const uint8_t *data, size_t size);
 /* --sky and --key-light as text, or a picture as sky and height map. */
 void fuzz_sky(const uint8_t *data, size_t size);
+/* A file of cameras, JSON or .chan, behind a byte for the order of angles. */
+void fuzz_cameras(const uint8_t *data, size_t size);
 
 /* support.c */
 
