@@ -18,6 +18,9 @@ endif()
 if(CMAKE_CROSSCOMPILING)
     return()
 endif()
+find_package(Threads REQUIRED)
+crevice_test(test_host_threads SOURCES test_host_threads.c
+    LIBS crevice_fixture Threads::Threads)
 
 # Longer ones, and those that need POSIX or the library's insides.
 crevice_test(test_closed_forms SOURCES test_closed_forms.c quadrature.c LIBS crevice_fixture)
