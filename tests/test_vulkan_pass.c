@@ -220,6 +220,139 @@ static void a_plan_has_no_times_before_its_first_run(void **state)
     crv_context_destroy(context);
 }
 
+/* ---- structs of other versions ---- */
+
+/* Room for a struct of the headers, and more than it. */
+typedef union room {
+    unsigned char bytes[1024];
+    size_t struct_size;
+    crv_vulkan_host host;
+    crv_vulkan_pass_desc desc;
+    crv_vulkan_frame frame;
+} room;
+
+/* What a struct is for: a pass of the usual size, or a frame of it. */
+typedef struct user {
+    engine *g;
+    crv_context_desc context_desc;
+    crv_context *context;
+    crv_vulkan_pass *pass; /* with today's defaults */
+    scene_images in;
+} user;
+
+static crv_status init_host(room *r, size_t size)
+{
+    return crv_vulkan_host_init(&r->host, size);
+}
+
+static crv_status use_host(const user *u, room *r)
+{
+    crv_context *context = NULL;
+    const crv_vulkan_host full = engine_host(u->g);
+    const size_t size = r->struct_size;
+    if (size == sizeof full)
+        r->host = full;
+    const crv_status status =
+        crv_vulkan_context_create(&u->context_desc, &r->host, &context);
+    crv_context_destroy(context);
+    return status;
+}
+
+static crv_status init_desc(room *r, size_t size)
+{
+    return crv_vulkan_pass_desc_init(&r->desc, size);
+}
+
+static crv_status use_desc(const user *u, room *r)
+{
+    const crv_options options = scene_options(&ENCODINGS[0]);
+    crv_gbuffer_desc size;
+    crv_vulkan_pass *pass = NULL;
+    crv_gbuffer_desc_init(&size, sizeof size, SCENE_WIDTH, SCENE_HEIGHT);
+    const crv_status status =
+        crv_vulkan_pass_create(u->context, &options, &size, &r->desc, &pass);
+    if (status == CRV_OK)
+        assert_int_equal(crv_vulkan_pass_bytes(pass), crv_vulkan_pass_bytes(u->pass));
+    crv_vulkan_pass_destroy(pass);
+    return status;
+}
+
+static crv_status init_frame(room *r, size_t size)
+{
+    return crv_vulkan_frame_init(&r->frame, size);
+}
+
+static crv_status use_frame(const user *u, room *r)
+{
+    if (r->struct_size == sizeof r->frame) {
+        r->frame.camera = crv_camera_perspective(SCENE_WIDTH, SCENE_HEIGHT, 1);
+        r->frame.depth[0].view = u->in.depth.view;
+        r->frame.result = u->in.result.image;
+        r->frame.result_view = u->in.result.view;
+    }
+    const VkCommandBuffer commands = engine_begin(u->g, 0);
+    const crv_status status = crv_vulkan_pass_record(u->pass, commands, &r->frame);
+    engine_submit(u->g, 0);
+    engine_wait(u->g);
+    return status;
+}
+
+/* Every size since the first version is taken, nothing is read or written beyond it, and
+ * missing members have their defaults; other sizes are refused with a line. */
+static void structs_of_every_earlier_size_are_taken(void **state)
+{
+    static const struct {
+        size_t first, size;
+        crv_status (*init)(room *r, size_t size);
+        crv_status (*use)(const user *u, room *r);
+    } CASES[] = {
+        {sizeof(crv_vulkan_host), sizeof(crv_vulkan_host), init_host, use_host},
+        {offsetof(crv_vulkan_pass_desc, normals), sizeof(crv_vulkan_pass_desc), init_desc,
+         use_desc},
+        {sizeof(crv_vulkan_frame), sizeof(crv_vulkan_frame), init_frame, use_frame},
+    };
+    scene_lines log = {0};
+    scene_encoding e = ENCODINGS[0]; /* what the defaults of a pass are for */
+    e.normals = CRV_VULKAN_NORMALS_NONE;
+    e.result_format = VK_FORMAT_R8_UNORM;
+    const crv_options options = scene_options(&e);
+    crv_vulkan_pass_desc desc;
+    scene *s = malloc(sizeof *s);
+    assert_non_null(s);
+    scene_make_sized(s, &e, 1, SCENE_WIDTH, SCENE_HEIGHT);
+    user u = {.g = *state};
+    crv_context_desc_init(&u.context_desc, sizeof u.context_desc);
+    u.context_desc.logger = (crv_logger){.fn = scene_keep_line, .user = &log};
+    u.context = scene_context(u.g, &log);
+    u.in = scene_upload(u.g, s, &e);
+    crv_vulkan_pass_desc_init(&desc, sizeof desc);
+    assert_int_equal(
+        crv_vulkan_pass_create(u.context, &options, &s->desc, &desc, &u.pass), CRV_OK);
+    for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
+        for (size_t size = CASES[i].first - 8; size <= CASES[i].size + 8; size += 8) {
+            const int fits = size >= CASES[i].first && size <= CASES[i].size;
+            const crv_status wanted = fits ? CRV_OK : CRV_ERROR_INVALID_ARGUMENT;
+            room r;
+            memset(&r, 0xa5, sizeof r);
+            log = (scene_lines){0};
+            assert_int_equal(CASES[i].init(&r, size), wanted);
+            assert_int_equal(r.struct_size, size);
+            for (size_t k = size; k < sizeof r; k++)
+                assert_int_equal(r.bytes[k], 0xa5);
+            assert_int_equal(CASES[i].use(&u, &r), wanted);
+            assert_int_equal(log.errors, !fits);
+            if (!fits)
+                assert_non_null(strstr(log.last, size < CASES[i].first
+                                                     ? "not initialised"
+                                                     : "as new as the headers"));
+        }
+    }
+    crv_vulkan_pass_destroy(u.pass);
+    scene_free(u.g, &u.in);
+    crv_context_destroy(u.context);
+    free(s);
+}
+
 /* ---- what is refused ---- */
 
 static void assert_refused(scene_lines *log, crv_status status, crv_status wanted)
@@ -431,6 +564,7 @@ int main(void)
         cmocka_unit_test(plans_run_on_the_queue_of_the_host),
         cmocka_unit_test(times_are_of_every_pass),
         cmocka_unit_test(a_plan_has_no_times_before_its_first_run),
+        cmocka_unit_test(structs_of_every_earlier_size_are_taken),
         cmocka_unit_test(bad_passes_are_refused_with_one_line),
         cmocka_unit_test(what_lavapipe_would_break_off_is_refused_there),
         cmocka_unit_test(bad_frames_are_refused_with_one_line),

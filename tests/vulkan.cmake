@@ -61,17 +61,20 @@ endif()
 # What renderers call, under the validation layer.
 find_package(Vulkan QUIET)
 if(Vulkan_FOUND)
-    foreach(test test_vulkan_pass test_vulkan_frames test_vulkan_formats test_vulkan_failures)
+    foreach(name pass frames views formats failures)
+        set(test test_vulkan_${name})
         crevice_test(${test} SOURCES ${test}.c vulkan_driver.c vulkan_engine.c vulkan_scene.c
-                vulkan_texels.c ${PROJECT_SOURCE_DIR}/examples/vulkan_host_setup.c
+                vulkan_stage.c vulkan_texels.c ${PROJECT_SOURCE_DIR}/examples/vulkan_host_setup.c
             LIBS crevice_fixture Vulkan::Vulkan)
         set_tests_properties(${test} PROPERTIES
             LABELS vulkan TIMEOUT 600 SKIP_RETURN_CODE 77)
     endforeach()
     # Views, sizes, layers, options and noise that change each frame.
-    vulkan_validated(frames
-        "${enable}_SYNCHRONIZATION_VALIDATION_EXT:${enable}_BEST_PRACTICES_EXT"
-        $<TARGET_FILE:test_vulkan_frames>)
+    foreach(name frames views)
+        vulkan_validated(${name}
+            "${enable}_SYNCHRONIZATION_VALIDATION_EXT:${enable}_BEST_PRACTICES_EXT"
+            $<TARGET_FILE:test_vulkan_${name}>)
+    endforeach()
     # Images of the host's, with the shaders instrumented.
     vulkan_validated(gpu_pass ${enable}_GPU_ASSISTED_EXT
         $<TARGET_FILE:test_vulkan_formats> --usual)

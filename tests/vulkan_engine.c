@@ -18,7 +18,7 @@ int engine_open(engine *e, int validate)
         .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
         .commandPool = e->pool,
         .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-        .commandBufferCount = 2};
+        .commandBufferCount = ENGINE_COMMANDS};
     host_check(vkAllocateCommandBuffers(e->h.device, &buffers, e->commands), "commands");
     return 0;
 }

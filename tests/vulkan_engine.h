@@ -6,10 +6,12 @@
 #include "../examples/vulkan_host_setup.h"
 #include "crevice/vulkan.h"
 
+enum { ENGINE_COMMANDS = 8 };
+
 typedef struct engine {
     host h;
     VkCommandPool pool;
-    VkCommandBuffer commands[2];
+    VkCommandBuffer commands[ENGINE_COMMANDS];
 } engine;
 
 /* As host_open(): -1 if there is no device, or no validation layer. */
@@ -19,7 +21,7 @@ void engine_close(engine *e);
 /* All set but the memory callbacks. */
 crv_vulkan_host engine_host(const engine *e);
 
-/* Begins one of the two command buffers; submits it without waiting; waits for all. */
+/* Begins one of the command buffers; submits it without waiting; waits for all. */
 VkCommandBuffer engine_begin(engine *e, int which);
 void engine_submit(engine *e, int which);
 void engine_wait(engine *e);

@@ -163,8 +163,8 @@ CRV_API crv_status crv_plan_filter(crv_plan *plan, crv_gbuffer *gbuffer,
 
 /* The time that a step took on the device. */
 typedef struct crv_device_time {
-    const char *name; /* "upload", "deinterleave", "levels", the method's or filter's
-                         name, "download"; static */
+    const char *name; /* "upload", "deinterleave", "levels", "width", the method's or
+                         filter's name, "download"; static */
     double time_ms;
 } crv_device_time;
 

@@ -303,7 +303,7 @@ CRV_API crv_status crv_vulkan_pass_record(crv_vulkan_pass *pass, VkCommandBuffer
 /*
  * Times of the steps of the last recording with this index, which must have been
  * submitted: "depth and normals", "depth" (each further layer), "deinterleave", "levels",
- * the method's name, the filter's name (each pass).
+ * "width" (bitmask), the method's name, the filter's name (each pass).
  * times: room for CRV_MAX_DEVICE_TIMES; *count: the number written. Does not wait.
  * Errors: INVALID_ARGUMENT; NOT_READY, not logged, while the recording is executed, or if
  * nothing was recorded; UNSUPPORTED if desc.timestamps is not set or the queue family has

@@ -140,8 +140,8 @@ void crv_vulkan_pass_destroy(crv_vulkan_pass *p)
 /* Of the options that noise and points depend on, all others are fixed. */
 static bool patterns_differ(const crv_options *a, const crv_options *b)
 {
-    return a->seed != b->seed || a->tau < b->tau || a->tau > b->tau || a->u < b->u
-           || a->u > b->u;
+    return a->seed != b->seed || a->noise_index != b->noise_index || a->tau < b->tau
+           || a->tau > b->tau || a->u < b->u || a->u > b->u;
 }
 
 crv_status crv_vulkan_pass_set_options(crv_vulkan_pass *p, const crv_options *options)
