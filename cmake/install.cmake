@@ -95,7 +95,13 @@ if(TARGET crevice_tool AND NOT CMAKE_INSTALL_PREFIX STREQUAL "/usr")
     # The tool finds its library beside itself, wherever the tree lies; in /usr the system does.
     if(NOT IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}" AND NOT IS_ABSOLUTE "${CMAKE_INSTALL_BINDIR}")
         file(RELATIVE_PATH crevice_rpath /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
-        set_target_properties(crevice_tool PROPERTIES INSTALL_RPATH "$ORIGIN/${crevice_rpath}")
+        if(APPLE)
+            set(crevice_origin "@loader_path")
+        else()
+            set(crevice_origin "$ORIGIN")
+        endif()
+        set_target_properties(crevice_tool PROPERTIES
+            INSTALL_RPATH "${crevice_origin}/${crevice_rpath}")
     endif()
 endif()
 

@@ -7,7 +7,7 @@ target_include_directories(test_simd PRIVATE ${PROJECT_BINARY_DIR}/src) # crevic
 get_property(crevice_sets GLOBAL PROPERTY CREVICE_SETS)
 foreach(set IN LISTS crevice_sets)
     add_library(test_simd_${set} OBJECT simd_words_tmpl.c)
-    foreach(property COMPILE_DEFINITIONS COMPILE_OPTIONS INCLUDE_DIRECTORIES)
+    foreach(property COMPILE_DEFINITIONS COMPILE_OPTIONS INCLUDE_DIRECTORIES OSX_ARCHITECTURES)
         get_target_property(value crevice_kernels_${set} ${property})
         if(value)
             set_property(TARGET test_simd_${set} PROPERTY ${property} ${value})

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-#if !defined(_WIN32)
-#define _POSIX_C_SOURCE 200809L /* sysconf() */
-#else
+#if defined(_WIN32)
 #define WIN32_LEAN_AND_MEAN
+#elif !defined(__APPLE__)       /* which hides the number of processors from POSIX */
+#define _POSIX_C_SOURCE 200809L /* sysconf() */
 #endif
 #include "base/parallel.h"
 

@@ -38,7 +38,8 @@ function(crevice_isa_chosen result set)
 endfunction()
 
 # crevice_kernels(SET [FEATURE...] [OPTIONS option...]): what the set needs of the machine,
-# as the compiler names it after -m and in __builtin_cpu_supports(). The fastest first.
+# as the compiler names it after -m and in __builtin_cpu_supports(). The fastest first. In a
+# universal binary of macOS each set is compiled for crevice_architecture alone.
 set(crevice_sets "/* SPDX-License-Identifier: MIT */\n/* Generated from kernels.cmake. */\n")
 function(crevice_kernels set)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "OPTIONS")
@@ -61,21 +62,35 @@ function(crevice_kernels set)
         ${PROJECT_SOURCE_DIR}/include ${CMAKE_CURRENT_SOURCE_DIR})
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:crevice_flags>)
     target_sources(crevice PRIVATE $<TARGET_OBJECTS:${target}>)
-    set(crevice_sets "${crevice_sets}CRV__SET(${set}, ${SET}, ${is_there})\n" PARENT_SCOPE)
+    set(line "CRV__SET(${set}, ${SET}, ${is_there})\n")
+    if(CMAKE_OSX_ARCHITECTURES)
+        set_target_properties(${target} PROPERTIES OSX_ARCHITECTURES ${crevice_architecture})
+        set(line "#if defined(__${crevice_architecture}__)\n${line}#endif\n")
+    endif()
+    set(crevice_sets "${crevice_sets}${line}" PARENT_SCOPE)
     set_property(GLOBAL APPEND PROPERTY CREVICE_SETS ${set})
 endfunction()
 
-if(MSVC)
-    # It lacks the operators on vectors that kernels use: plain C only.
-elseif(CMAKE_C_COMPILER_ID MATCHES "GNU|Clang" AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|i.86)$")
-    crevice_kernels(avx512 avx2 fma avx512f avx512bw avx512dq avx512vl
-        OPTIONS -mprefer-vector-width=512)
-    crevice_kernels(avx2 avx2 fma)
-    crevice_kernels(sse4 sse4.1)
-elseif(CMAKE_C_COMPILER_ID MATCHES "GNU|Clang" AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
-    crevice_kernels(neon) # every AArch64 has it
+set(crevice_architectures ${CMAKE_SYSTEM_PROCESSOR})
+if(CMAKE_OSX_ARCHITECTURES)
+    set(crevice_architectures ${CMAKE_OSX_ARCHITECTURES})
 elseif(EMSCRIPTEN)
-    crevice_kernels(wasm OPTIONS -msimd128) # a module is for machines with vectors or without
+    set(crevice_architectures wasm)
 endif()
+if(MSVC OR NOT CMAKE_C_COMPILER_ID MATCHES "GNU|Clang")
+    set(crevice_architectures "") # no operators on vectors: plain C only
+endif()
+foreach(crevice_architecture IN LISTS crevice_architectures)
+    if(crevice_architecture MATCHES "^(x86_64|AMD64|i.86)$")
+        crevice_kernels(avx512 avx2 fma avx512f avx512bw avx512dq avx512vl
+            OPTIONS -mprefer-vector-width=512)
+        crevice_kernels(avx2 avx2 fma)
+        crevice_kernels(sse4 sse4.1)
+    elseif(crevice_architecture MATCHES "^(aarch64|arm64)$")
+        crevice_kernels(neon) # every AArch64 has it
+    elseif(crevice_architecture STREQUAL "wasm")
+        crevice_kernels(wasm OPTIONS -msimd128) # a module is for machines with vectors or without
+    endif()
+endforeach()
 file(CONFIGURE OUTPUT crevice_sets.h CONTENT "${crevice_sets}" @ONLY)
 target_include_directories(crevice PRIVATE ${CMAKE_CURRENT_BINARY_DIR})

@@ -125,6 +125,40 @@ static void look_up_properties(crv__device *d)
 
 /* ---- a device of one's own ---- */
 
+/* Drivers that translate to other interfaces, as macOS has, are listed only to those who
+ * ask for them by one extension, and want another to be named when a device is made. */
+static const char *const ENUMERATION = "VK_KHR_portability_enumeration",
+                         *const SUBSET = "VK_KHR_portability_subset";
+
+/* VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR, which the first 1.3 headers lack. */
+enum { ENUMERATE_PORTABILITY = 1 };
+
+/* Whether the instance (physical: NULL) or the device has an extension. A failure costs
+ * the extension only. */
+static bool has_extension(const crv__device *d, VkPhysicalDevice physical,
+                          const char *name)
+{
+    const crv__vk_table *vk = &d->vk;
+    uint32_t count = 0;
+    if (physical)
+        vk->EnumerateDeviceExtensionProperties(physical, NULL, &count, NULL);
+    else
+        vk->EnumerateInstanceExtensionProperties(NULL, &count, NULL);
+    const uint32_t room = count;
+    VkExtensionProperties *all = crv__allocate(&d->allocator, room, sizeof *all);
+    if (!all)
+        return false;
+    if (physical)
+        vk->EnumerateDeviceExtensionProperties(physical, NULL, &count, all);
+    else
+        vk->EnumerateInstanceExtensionProperties(NULL, &count, all);
+    bool found = false;
+    for (uint32_t i = 0; i < count && i < room; i++)
+        found = found || strcmp(all[i].extensionName, name) == 0;
+    crv__release(&d->allocator, all, room, sizeof *all);
+    return found;
+}
+
 static crv_status open_instance(crv__device *d)
 {
     PFN_vkGetInstanceProcAddr function = NULL;
@@ -139,8 +173,12 @@ static crv_status open_instance(crv__device *d)
     const VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
                                            .pApplicationName = "crevice",
                                            .apiVersion = VK_API_VERSION_1_3};
+    const bool portable = has_extension(d, NULL, ENUMERATION);
     const VkInstanceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
-                                       .pApplicationInfo = &application};
+                                       .flags = portable ? ENUMERATE_PORTABILITY : 0,
+                                       .pApplicationInfo = &application,
+                                       .enabledExtensionCount = portable ? 1 : 0,
+                                       .ppEnabledExtensionNames = &ENUMERATION};
     const VkResult result = d->vk.CreateInstance(&info, d->callbacks, &d->instance);
     if (result)
         return crv__device_fail(d, result, "instance");
@@ -186,7 +224,10 @@ static crv_status open_device(crv__device *d)
     const VkDeviceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                      .pNext = &features,
                                      .queueCreateInfoCount = 1,
-                                     .pQueueCreateInfos = &queue};
+                                     .pQueueCreateInfos = &queue,
+                                     .enabledExtensionCount =
+                                         has_extension(d, d->physical, SUBSET) ? 1 : 0,
+                                     .ppEnabledExtensionNames = &SUBSET};
     const VkResult result =
         d->vk.CreateDevice(d->physical, &info, d->callbacks, &d->device);
     if (result)

@@ -26,8 +26,19 @@ void crv__loader_close(void *loader)
 #else
 void *crv__loader_open(PFN_vkGetInstanceProcAddr *function)
 {
-    static const char *const NAMES[] = {"libvulkan.so.1", "libvulkan.so",
-                                        "libvulkan.1.dylib", "libMoltenVK.dylib"};
+    static const char *const NAMES[] = {
+#if defined(__APPLE__)
+        "libvulkan.1.dylib", /* on the loader's own path, then where Homebrew puts it */
+        "/opt/homebrew/lib/libvulkan.1.dylib",
+        "/usr/local/lib/libvulkan.1.dylib",
+        "libMoltenVK.dylib",
+        "/opt/homebrew/lib/libMoltenVK.dylib",
+        "/usr/local/lib/libMoltenVK.dylib"
+#else
+        "libvulkan.so.1",
+        "libvulkan.so"
+#endif
+    };
     for (size_t i = 0; i < sizeof NAMES / sizeof NAMES[0]; i++) {
         void *loader = dlopen(NAMES[i], RTLD_NOW | RTLD_LOCAL);
         void *symbol = loader ? dlsym(loader, "vkGetInstanceProcAddr") : NULL;
@@ -63,8 +74,13 @@ crv_status crv__table_load_global(crv__vk_table *t, PFN_vkGetInstanceProcAddr fu
     t->CreateInstance = (PFN_vkCreateInstance)function(NULL, "vkCreateInstance");
     t->EnumerateInstanceVersion =
         (PFN_vkEnumerateInstanceVersion)function(NULL, "vkEnumerateInstanceVersion");
+    t->EnumerateInstanceExtensionProperties =
+        (PFN_vkEnumerateInstanceExtensionProperties)function(
+            NULL, "vkEnumerateInstanceExtensionProperties");
     if (!t->CreateInstance)
         return missing(logger, "CreateInstance");
+    if (!t->EnumerateInstanceExtensionProperties)
+        return missing(logger, "EnumerateInstanceExtensionProperties");
     return t->EnumerateInstanceVersion ? CRV_OK
                                        : missing(logger, "EnumerateInstanceVersion");
 }

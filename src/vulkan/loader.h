@@ -14,6 +14,7 @@
 #define CRV__INSTANCE_FUNCTIONS(F)                                                       \
     F(DestroyInstance)                                                                   \
     F(EnumeratePhysicalDevices)                                                          \
+    F(EnumerateDeviceExtensionProperties)                                                \
     F(GetPhysicalDeviceProperties)                                                       \
     F(GetPhysicalDeviceProperties2)                                                      \
     F(GetPhysicalDeviceFeatures2)                                                        \
@@ -81,6 +82,7 @@ typedef struct crv__vk_table {
     PFN_vkGetInstanceProcAddr GetInstanceProcAddr;
     PFN_vkCreateInstance CreateInstance;
     PFN_vkEnumerateInstanceVersion EnumerateInstanceVersion;
+    PFN_vkEnumerateInstanceExtensionProperties EnumerateInstanceExtensionProperties;
 #define CRV__MEMBER(name) PFN_vk##name name;
     CRV__INSTANCE_FUNCTIONS(CRV__MEMBER)
     CRV__DEVICE_FUNCTIONS(CRV__MEMBER)
