@@ -44,7 +44,7 @@ all_agree()
     for method in $methods; do
         agrees "$1" "$2" "$method" bilateral13
     done
-    for filter in none box4 gauss5; do
+    for filter in none box4 edges7 gauss5; do
         agrees "$1" "$2" hbao $filter
     done
 }

@@ -23,6 +23,9 @@ void main()
     const int row = int(gl_WorkGroupSize.x) + before.x + window_after().x;
     const int rows = int(gl_WorkGroupSize.y) + before.y + window_after().y;
     take_tile(at - place - before, ivec2(row, rows));
+#ifdef PREPARE_TILE /* what a filter derives from the tile */
+    PREPARE_TILE(ivec2(row, rows));
+#endif
     if (!in_output(at))
         return;
     const int index = (place.y + before.y) * row + place.x + before.x;
