@@ -40,6 +40,10 @@ chromium         chromium
 llvm-symbolizer  llvm
 -                libclang-rt-dev
 -                libomp-dev
+-                slurmctld
+-                slurmd
+-                slurm-client
+-                munge
 '
 
 # What study/run measures and draws with, and what tests it.

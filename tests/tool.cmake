@@ -43,3 +43,6 @@ tool_test(tool_shared)
 set_tests_properties(tool_shared PROPERTIES TIMEOUT 600)
 tool_test(tool_bench)
 set_tests_properties(tool_bench PROPERTIES TIMEOUT 600)
+tool_test(farm_slurm)
+# One machine has room for one cluster at a time.
+set_tests_properties(farm_slurm PROPERTIES RESOURCE_LOCK slurm)
