@@ -142,6 +142,16 @@ printf '{"eye": [0, 0, 0], "target": [3, -2, -1], "vfov": 45}' >turned.json
 good ao first.exr --camera turned.json --radius 0.4 -o turned.exr
 grep -q 'warning: .*turned otherwise' stderr.txt || fail "a camera that contradicts"
 
+# The field of view that the normals agree on, for all frames.
+good gbuffer builtin:courtyard $size -o fit.0001.exr --guard-px 0 --vfov 37
+cp fit.0001.exr fit.0002.exr
+good ao "fit.####.exr" --frames 1-2 --vfov fit --radius 0.4 -o "fitted.####.exr"
+vfov=$(sed -n 's/^field of view: --vfov \([0-9.]*\), .*/\1/p' stderr.txt)
+at_least "$vfov" 36.6 "a field of view of 37 degrees"
+at_most "$vfov" 37.4 "a field of view of 37 degrees"
+bad 1 'it has no normals' ao shot.0003.pfm --vfov fit -o out.exr
+bad 2 'or fit' ao shot.0003.pfm --vfov find -o out.exr
+
 # A later frame of another size is told of; so is one that shows nothing.
 pfm shot.0007.pfm 3 2 1 1 1 1 1 1
 good ao "shot.####.pfm" --frames 3-7x4 --vfov 90 -o "mix.####.exr"

@@ -68,7 +68,11 @@ static int find_given(const io_image *image, const io_passes_request *request,
 {
     const int32_t width = image->display_width, height = image->display_height;
     *guess = (io__camera_guess){.text = "as given"};
-    if (request->hfov_rad > 0.0f || request->vfov_rad > 0.0f) {
+    if (request->fit_vfov) {
+        guess->camera = of_lens(image, 0.0f, 1.0f); /* to begin with */
+        guess->text = "fitted to normals and depth";
+        guess->needs_lens = true;
+    } else if (request->hfov_rad > 0.0f || request->vfov_rad > 0.0f) {
         guess->camera = of_lens(image, request->hfov_rad, request->vfov_rad);
     } else {
         guess->camera = crv_camera_orthographic(width, height, request->view_height);
@@ -99,7 +103,7 @@ int io__find_cameras(const char *path, const io_image *image,
     int count = io__cameras_from_ndc(&image->camera, image->display_width,
                                      image->display_height, described);
     const bool is_given = request->vfov_rad > 0.0f || request->hfov_rad > 0.0f
-                          || request->view_height > 0.0f;
+                          || request->view_height > 0.0f || request->fit_vfov;
     if (count == 0)
         tell_of_no_camera(path, &image->camera, log);
     if (is_given) {

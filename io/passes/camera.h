@@ -9,6 +9,7 @@ enum { IO__MAX_CAMERAS = 2 };
 
 typedef struct io__camera_guess {
     crv_camera camera; /* pixels of the data window */
+    bool needs_lens;   /* the focal length stands for one that is to be found */
     bool has_rotation;
     double to_view[9]; /* world to view space; a reflection if the world is left-handed */
     const char *text;  /* where it comes from */

@@ -1,213 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 #include "evidence.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "depth.h"
 #include "internal.h"
-
-enum { FEWEST_PAIRS = 50, /* fewer say nothing */ TEXT = 128 };
-
-/* Degrees. From the first on, others are tried; from the second on, normals and depth
- * contradict each other; beyond the third, the normals are noise. */
-static const double doubtful = 2.0, suspicious = 4.0, worst = 20.0;
-
-/* What is at hand while a frame is judged. */
-typedef struct court {
-    const char *path;
-    const crv_logger *log;
-    const io_passes_request *request;
-    const io_frame *frame;
-    bool has_normals;
-    float *memory; /* planar depth of the trial; owned */
-    crv_image planar;
-} court;
-
-/* One way to take the frame, and how well it goes. */
-typedef struct trial {
-    crv_camera camera;
-    const io__camera_guess *guess;
-    crv_depth_format format;
-    char text[TEXT]; /* what is different from the first, for messages */
-    io__reading reading;
-    size_t pairs;
-    double bend;
-} trial;
-
-static int try_it(const court *c, trial *t)
-{
-    const crv_const_image given = crv_image_const(c->frame->depth[0]);
-    if (crv_depth_convert(&given, &t->format, &t->camera, &c->planar, c->log) != CRV_OK)
-        return -1;
-    t->reading = (io__reading){0};
-    t->pairs = 0;
-    if (!c->has_normals) {
-        t->bend = io__surface_bend(&c->planar, &t->camera);
-        return 0;
-    }
-    const io_normal_space space = c->request->normal_space;
-    const io__reading_request request = {
-        .try_view = space != IO_NORMALS_WORLD,
-        .try_world = space != IO_NORMALS_VIEW,
-        .to_view = t->guess->has_rotation ? t->guess->to_view : NULL,
-        .usual = c->request->usual_reading};
-    io__pair_list pairs;
-    io__find_pairs(&c->planar, &t->camera, &c->frame->normals, &pairs);
-    t->pairs = pairs.count;
-    if (pairs.count >= FEWEST_PAIRS)
-        t->reading = io__choose_reading(&pairs, &request);
-    io__free_pairs(&pairs);
-    return 0;
-}
-
-/* Whether a trial contradicts the first one by far. */
-static bool is_better(const court *c, const trial *t, const trial *first)
-{
-    if (!c->has_normals)
-        return t->bend >= 0.0 && t->bend < 0.05 && t->bend < 0.1 * first->bend;
-    return t->reading.id && 2 * t->pairs > first->pairs
-           && t->reading.deviation < 0.5 * first->reading.deviation
-           && t->reading.deviation < suspicious;
-}
-
-static bool is_best(const court *c, const trial *t, const trial *best)
-{
-    return c->has_normals ? t->reading.deviation < best->reading.deviation
-                          : t->bend < best->bend;
-}
-
-/* The encodings that are tried. Only the ratio of far to near matters to directions. */
-typedef struct encoding_row {
-    crv_depth_encoding encoding;
-    float low, high;     /* the range of numbers that it can hold */
-    float far_values[6]; /* near is 1, for logarithmic 0; 0 ends the list */
-    const char *text;
-} encoding_row;
-
-static const encoding_row encoding_rows[] = {
-    {.encoding = CRV_DEPTH_PLANAR,
-     .low = 0.0f,
-     .high = INFINITY,
-     .far_values = {1.0f},
-     .text = "depth were planar (along the viewing axis)"},
-    {.encoding = CRV_DEPTH_RADIAL,
-     .low = 0.0f,
-     .high = INFINITY,
-     .far_values = {1.0f},
-     .text = "depth were radial (distance from the eye)"},
-    {.encoding = CRV_DEPTH_DISPARITY,
-     .low = 0.0f,
-     .high = INFINITY,
-     .far_values = {1.0f},
-     .text = "depth were disparity (1/distance), or reversed with an infinite far plane"},
-    {.encoding = CRV_DEPTH_HARDWARE,
-     .low = 0.0f,
-     .high = 1.0f,
-     .far_values = {10.0f, 100.0f, 1000.0f, 10000.0f, 100000.0f},
-     .text = "depth were hardware, far about %g times near"},
-    {.encoding = CRV_DEPTH_REVERSED,
-     .low = 0.0f,
-     .high = 1.0f,
-     .far_values = {10.0f, 100.0f, 1000.0f, 10000.0f, 100000.0f},
-     .text = "depth were reversed, far about %g times near"},
-    {.encoding = CRV_DEPTH_GL,
-     .low = -1.0f,
-     .high = 1.0f,
-     .far_values = {10.0f, 100.0f, 1000.0f, 10000.0f, 100000.0f},
-     .text = "depth were gl (-1 to 1), far about %g times near"},
-    {.encoding = CRV_DEPTH_NORMALISED_REVERSED,
-     .low = 0.0f,
-     .high = 1.0f,
-     .far_values = {10.0f, 1000.0f},
-     .text = "depth were normalised-reversed (1 at near, 0 at far), far about %g times "
-             "near"},
-    {.encoding = CRV_DEPTH_LOGARITHMIC,
-     .low = 0.0f,
-     .high = 1.0f,
-     .far_values = {10.0f, 100.0f, 1000.0f, 10000.0f, 100000.0f},
-     .text = "depth were logarithmic with its far plane at about %g"},
-};
-
-/* Tries t; better keeps the best of those that contradict `first`. */
-static int compare(const court *c, const trial *first, trial *t, trial *better,
-                   bool *found)
-{
-    if (try_it(c, t))
-        return -1;
-    if (is_better(c, t, first) && (!*found || is_best(c, t, better))) {
-        *better = *t;
-        *found = true;
-    }
-    return 0;
-}
-
-static int try_encodings(const court *c, const trial *first, trial *better, bool *found)
-{
-    const io__depth_facts facts = io__depth_facts_of(&c->frame->depth[0], NULL, INFINITY);
-    const float background =
-        first->format.background > 0.0f ? first->format.background : INFINITY;
-    int result = 0;
-    for (size_t i = 0; i < sizeof encoding_rows / sizeof encoding_rows[0]; i++) {
-        const encoding_row *row = &encoding_rows[i];
-        if (row->encoding == first->format.encoding || facts.smallest < row->low
-            || facts.largest > row->high)
-            continue;
-        for (int k = 0; !result && k < 6 && row->far_values[k] > 0.0f; k++) {
-            trial t = *first;
-            t.format = (crv_depth_format){.encoding = row->encoding,
-                                          .z_near = 1.0f,
-                                          .z_far = row->far_values[k],
-                                          .background = background};
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wformat-nonliteral"
-            snprintf(t.text, sizeof t.text, row->text, (double)row->far_values[k]);
-#pragma GCC diagnostic pop
-            result = compare(c, first, &t, better, found);
-        }
-    }
-    return result;
-}
-
-static int try_focal_length(const court *c, const trial *first, double scale,
-                            trial *better, bool *found)
-{
-    trial t = *first;
-    t.camera.fx_px *= (float)scale;
-    t.camera.fy_px *= (float)scale;
-    const double height = c->frame->image.display_height / (double)t.camera.fy_px;
-    snprintf(t.text, sizeof t.text, "its vertical field of view were about %.0f degrees",
-             2.0 * atan(0.5 * height) * 57.29577951308232);
-    return compare(c, first, &t, better, found);
-}
-
-static int try_cameras(const court *c, const io__camera_guess *cameras, int count,
-                       const trial *first, trial *better, bool *found)
-{
-    int result = 0;
-    for (int i = 1; !result && i < count; i++) {
-        trial t = *first;
-        t.camera = cameras[i].camera;
-        t.guess = &cameras[i];
-        snprintf(t.text, sizeof t.text, "its camera came from %s", cameras[i].text);
-        result = compare(c, first, &t, better, found);
-    }
-    if (*found || !c->has_normals || first->camera.projection != CRV_PERSPECTIVE)
-        return result;
-    /* From 0.2 to 5 times the focal length, then finer about the best. */
-    for (int k = -12; !result && k <= 12; k++)
-        result = try_focal_length(c, first, pow(1.15, k), better, found);
-    const double best =
-        *found ? (double)(better->camera.fy_px / first->camera.fy_px) : 1.0;
-    for (int k = -4; *found && !result && k <= 4; k++)
-        result = try_focal_length(c, first, best * pow(1.035, k), better, found);
-    return result;
-}
+#include "trial.h"
 
 /* A radial distance needs no number that the file does not hold: it is taken. Others are
  * named, for the user to say. */
-static bool is_taken(const court *c, const trial *better, const trial *first)
+static bool is_taken(const io__court *c, const io__trial *better, const io__trial *first)
 {
     if (!c->has_normals)
         return false;
@@ -217,14 +19,14 @@ static bool is_taken(const court *c, const trial *better, const trial *first)
            && first->format.encoding == CRV_DEPTH_PLANAR;
 }
 
-static const char *encoding_remedy(const court *c)
+static const char *encoding_remedy(const io__court *c)
 {
     return c->request->remedies.encoding ? c->request->remedies.encoding
                                          : "check the depth's encoding";
 }
 
-static void tell_contradiction(const court *c, const trial *first, const trial *better,
-                               bool found, bool taken)
+static void tell_contradiction(const io__court *c, const io__trial *first,
+                               const io__trial *better, bool found, bool taken)
 {
     const double deviation = first->reading.deviation;
     if (found && !c->has_normals)
@@ -239,7 +41,7 @@ static void tell_contradiction(const court *c, const trial *first, const trial *
         io__warn(c->log, c->path,
                  "normals and depth disagree by %.1f degrees, but by %.1f if %s; %s",
                  deviation, better->reading.deviation, better->text, encoding_remedy(c));
-    else if (c->has_normals && deviation > suspicious && deviation <= worst)
+    else if (c->has_normals && deviation > IO__SUSPICIOUS && deviation <= IO__WORST)
         io__warn(
             c->log, c->path,
             "normals and depth disagree by %.1f degrees in any encoding and field of "
@@ -248,13 +50,13 @@ static void tell_contradiction(const court *c, const trial *first, const trial *
             deviation, encoding_remedy(c));
 }
 
-static int look_further(const court *c, const io__camera_guess *cameras, int count,
-                        trial *t)
+static int look_further(const io__court *c, const io__camera_guess *cameras, int count,
+                        io__trial *t)
 {
-    trial better = {0};
+    io__trial better = {0};
     bool found = false;
-    if (try_encodings(c, t, &better, &found)
-        || try_cameras(c, cameras, count, t, &better, &found))
+    if (io__try_encodings(c, t, &better, &found)
+        || io__try_cameras(c, cameras, count, t, &better, &found))
         return -1;
     const bool taken = found && is_taken(c, &better, t);
     tell_contradiction(c, t, &better, found, taken);
@@ -264,7 +66,8 @@ static int look_further(const court *c, const io__camera_guess *cameras, int cou
 }
 
 /* What to do if depth cannot tell the space of the normals. */
-static io__reading settle_without_pairs(const court *c, const io__camera_guess *camera)
+static io__reading settle_without_pairs(const io__court *c,
+                                        const io__camera_guess *camera)
 {
     io__reading reading = {.id = IO__READ_METADATA};
     memcpy(reading.turn, camera->to_view, sizeof reading.turn);
@@ -291,7 +94,7 @@ static io__reading as_given_view(void)
                          .decided = true};
 }
 
-static void settle_reading(const court *c, trial *t)
+static void settle_reading(const io__court *c, io__trial *t)
 {
     if (!c->has_normals)
         return;
@@ -311,7 +114,7 @@ static void settle_reading(const court *c, trial *t)
         *reading = settle_without_pairs(c, t->guess);
         return;
     }
-    if (reading->deviation > worst) {
+    if (reading->deviation > IO__WORST) {
         io__warn(c->log, c->path,
                  "normals are ignored: whatever space they are taken in, they do not "
                  "agree with depth (by %.0f degrees); check the field of view and the "
@@ -330,7 +133,7 @@ static void settle_reading(const court *c, trial *t)
 }
 
 /* A frame that is noise has no surfaces to be judged by. */
-static void tell_of_noise(const court *c, const trial *t)
+static void tell_of_noise(const io__court *c, const io__trial *t)
 {
     const double largest = 5e-4; /* a step of half floats; surfaces stay far below */
     const crv_const_image given = crv_image_const(c->frame->depth[0]);
@@ -347,26 +150,47 @@ static void tell_of_noise(const court *c, const trial *t)
             100.0 * noise);
 }
 
-static int judge(const court *c, const crv_depth_format *format,
+/* A later frame may have been seen with another lens than the first. */
+static bool tell_of_zoom(const io__court *c, const io__trial *t)
+{
+    io__trial better = {0};
+    bool found = false;
+    const double deviation = t->reading.deviation;
+    if (!c->has_normals || c->request->zoom_told || deviation < IO__SUSPICIOUS
+        || deviation < 2.0 * c->request->usual_deviation
+        || io__try_cameras(c, NULL, 0, t, &better, &found) || !found)
+        return false;
+    io__warn(c->log, c->path,
+             "normals and depth disagree by %.1f degrees, unlike in the shot's first "
+             "frame, but by %.1f if %s: the shot zooms, perhaps; %s",
+             deviation, better.reading.deviation, better.text,
+             c->request->remedies.camera ? c->request->remedies.camera
+                                         : "give each frame's field of view");
+    return true;
+}
+
+static int judge(const io__court *c, const crv_depth_format *format,
                  const io__camera_guess *cameras, int count, io__verdict *out)
 {
-    trial t = {.camera = cameras[0].camera, .guess = &cameras[0], .format = *format};
-    if (try_it(c, &t))
+    io__trial t = {.camera = cameras[0].camera, .guess = &cameras[0], .format = *format};
+    if (cameras[0].needs_lens ? io__fit_focal_length(c, &t) : io__try(c, &t))
         return -1;
     for (int i = 1; i < count && c->has_normals; i++) {
-        trial other = t;
+        io__trial other = t;
         other.camera = cameras[i].camera;
         other.guess = &cameras[i];
-        if (try_it(c, &other))
+        if (io__try(c, &other))
             return -1;
-        if (is_better(c, &other, &t))
+        if (io__is_better(c, &other, &t))
             t = other;
     }
-    const bool is_doubtful =
-        c->has_normals ? t.reading.id && t.reading.deviation > doubtful : t.bend > 0.05;
+    const bool is_doubtful = c->has_normals
+                                 ? t.reading.id && t.reading.deviation > IO__DOUBTFUL
+                                 : t.bend > 0.05;
     /* A shot's later frames are as its first. */
     if (is_doubtful && !c->request->is_later && look_further(c, cameras, count, &t))
         return -1;
+    out->zooms = c->request->is_later && is_doubtful && tell_of_zoom(c, &t);
     settle_reading(c, &t);
     tell_of_noise(c, &t);
     out->camera = *t.guess;
@@ -382,12 +206,12 @@ int io__judge(const char *path, const io_passes_request *request,
               const crv_logger *log)
 {
     const int32_t width = frame->desc.width, height = frame->desc.height;
-    court c = {.path = path,
-               .log = log,
-               .request = request,
-               .frame = frame,
-               .has_normals = has_normals,
-               .memory = malloc((size_t)width * (size_t)height * sizeof(float))};
+    io__court c = {.path = path,
+                   .log = log,
+                   .request = request,
+                   .frame = frame,
+                   .has_normals = has_normals,
+                   .memory = malloc((size_t)width * (size_t)height * sizeof(float))};
     c.planar = crv_image_packed(c.memory, width, height, 1);
     int result = 0;
     if (!c.memory)

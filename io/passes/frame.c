@@ -34,6 +34,10 @@ static int check_request(const char *path, const io_passes_request *request,
     if (height != 0.0f && !(height > 0.0f && isfinite(height)))
         return io__fail(log, path,
                         "the view height must be a positive number; give 10 or the like");
+    if (request->fit_vfov && (vfov != 0.0f || height != 0.0f))
+        return io__fail(log, path,
+                        "a field of view is given and to be found; give it or leave it "
+                        "out");
     if (vfov != 0.0f && height != 0.0f)
         return io__fail(log, path,
                         "both a field of view and an orthographic view height are given; "
@@ -295,6 +299,11 @@ static int settle(const char *path, const io_passes_request *request,
                   log))
         return -1;
     frame->camera = verdict.camera.camera;
+    frame->deviation = verdict.reading.deviation;
+    frame->zooms = verdict.zooms;
+    if (verdict.camera.needs_lens)
+        frame->fitted_vfov_rad =
+            2.0f * atanf(0.5f * (float)frame->image.display_height / frame->camera.fy_px);
     frame->encoding = verdict.format.encoding;
     if (verdict.camera.has_rotation && io__is_rotation(verdict.camera.to_view))
         for (int i = 0; i < 9; i++)

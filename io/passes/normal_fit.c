@@ -10,7 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROUNDS = 25, JACOBI_SWEEPS = 30 };
+#include "linear.h"
+
+enum { ROUNDS = 25 };
 
 /* Radians. Where most pixels show one flat floor, the median vanishes; a scale as small
  * would leave nothing of the rest, which alone fixes the rotation about the floor's
@@ -67,46 +69,6 @@ static double median(double *values, size_t count)
     return values[wanted];
 }
 
-/* One Jacobi rotation that zeroes a[p][q]; the columns of v follow. */
-static void jacobi_rotate(double a[4][4], double v[4][4], int p, int q)
-{
-    if (fabs(a[p][q]) < 1e-300)
-        return;
-    const double theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-    const double t =
-        (theta < 0.0 ? -1.0 : 1.0) / (fabs(theta) + sqrt(theta * theta + 1.0));
-    const double c = 1.0 / sqrt(t * t + 1.0), s = t * c;
-    for (int k = 0; k < 4; k++) {
-        const double kp = a[k][p], kq = a[k][q];
-        a[k][p] = c * kp - s * kq;
-        a[k][q] = s * kp + c * kq;
-    }
-    for (int k = 0; k < 4; k++) {
-        const double pk = a[p][k], qk = a[q][k];
-        a[p][k] = c * pk - s * qk;
-        a[q][k] = s * pk + c * qk;
-        const double vp = v[k][p], vq = v[k][q];
-        v[k][p] = c * vp - s * vq;
-        v[k][q] = s * vp + c * vq;
-    }
-}
-
-/* The eigenvector of the largest eigenvalue of a symmetric matrix. */
-static void largest_eigenvector(double a[4][4], double out[4])
-{
-    double v[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
-    int best = 0;
-    for (int sweep = 0; sweep < JACOBI_SWEEPS; sweep++)
-        for (int p = 0; p < 3; p++)
-            for (int q = p + 1; q < 4; q++)
-                jacobi_rotate(a, v, p, q);
-    for (int i = 1; i < 4; i++)
-        if (a[i][i] > a[best][best])
-            best = i;
-    for (int i = 0; i < 4; i++)
-        out[i] = v[i][best];
-}
-
 static void rotation_of_quaternion(const double q[4], double r[9])
 {
     const double w = q[0], x = q[1], y = q[2], z = q[3];
@@ -125,7 +87,7 @@ static void rotation_of_quaternion(const double q[4], double r[9])
  */
 static void solve(double s[3][3], double rotation[9])
 {
-    double n[4][4], q[4];
+    double n[4][4], values[4], vectors[4][4];
     n[0][0] = s[0][0] + s[1][1] + s[2][2];
     n[1][1] = s[0][0] - s[1][1] - s[2][2];
     n[2][2] = -s[0][0] + s[1][1] - s[2][2];
@@ -136,8 +98,8 @@ static void solve(double s[3][3], double rotation[9])
     n[1][2] = n[2][1] = s[0][1] + s[1][0];
     n[1][3] = n[3][1] = s[2][0] + s[0][2];
     n[2][3] = n[3][2] = s[1][2] + s[2][1];
-    largest_eigenvector(n, q);
-    rotation_of_quaternion(q, rotation);
+    io__eigenvectors(n[0], 4, values, vectors[0]);
+    rotation_of_quaternion(vectors[3], rotation); /* of the largest */
 }
 
 /* One weighted solution; weights by the angles to the rotation before, or all 1. */

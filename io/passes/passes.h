@@ -49,9 +49,12 @@ typedef struct io_passes_request {
     float vfov_rad;   /* > 0: perspective with this vertical field of view of the display
                          window; wins over metadata */
     float hfov_rad;   /* > 0: the same with a horizontal field of view */
-    float
-        view_height; /* > 0: orthographic, height of the display window in scene units */
-    io_pose pose;    /* wins over metadata */
+    /* > 0: orthographic, height of the display window in scene units */
+    float view_height;
+    /* Finds the field of view, which none of these three give: normals and depth agree
+     * best at the right one. An error if the frame leaves it open. */
+    bool fit_vfov;
+    io_pose pose; /* wins over metadata */
     io_normal_space normal_space;
     bool flip_normals[3]; /* negate x, y, z of the normals as the file has them */
     /* The encoding is the user's word: another that fits better is told, not taken. */
@@ -60,15 +63,19 @@ typedef struct io_passes_request {
      * G-buffers that crevice made stays one. */
     bool keep_overscan;
     /* For frames of a shot. is_later: not its first, which told what contradicts.
-     * usual_reading: io_frame.reading of a frame that decided it, or 0. */
-    bool is_later;
+     * usual_reading: io_frame.reading of a frame that decided it, or 0. usual_deviation:
+     * io_frame.deviation of the first. zoom_told: no word of another io_frame.zooms. */
+    bool is_later, zoom_told;
     int usual_reading;
+    double usual_deviation;
     io_passes_remedies remedies;
 } io_passes_request;
 
 typedef struct io_frame {
     crv_gbuffer_desc desc; /* guard band = overscan beyond the display window */
     crv_camera camera;
+    /* Of the display window, if fit_vfov was asked for; 0: positions told the camera. */
+    float fitted_vfov_rad;
     bool has_normals;
     crv_normal_space normal_space;
     /* How depth was read, for io_passes_request.depth_format of a shot's later frames. */
@@ -77,7 +84,9 @@ typedef struct io_frame {
      * whether this frame alone decides it. */
     int reading;
     bool reading_decided;
-    io_image image;                  /* owns the pixels that the views below show */
+    double deviation; /* degrees between the normals and depth; 0: there are none */
+    bool zooms;       /* a later frame, which was seen with another field of view */
+    io_image image;   /* owns the pixels that the views below show */
     crv_image depth[CRV_MAX_LAYERS]; /* planar, whatever the file holds; background
                                         INFINITY */
     crv_image normals;

@@ -314,6 +314,9 @@ int io__settle_positions(const char *path, const io_passes_request *request,
     const crv_image first = crv_image_packed(frame->image.channels[0].data,
                                              frame->image.width, frame->image.height, 1);
     cloud c = {0};
+    /* The positions tell it better. */
+    if (request->fit_vfov)
+        count = 0;
     if (request->encoding_given && request->depth_format.encoding != CRV_DEPTH_PLANAR)
         return io__fail(log, path,
                         "its positions have no depth encoding; leave that out, or name a "

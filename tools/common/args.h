@@ -54,10 +54,11 @@ typedef struct arg {
     char short_name;   /* 'o' for -o; 0 for none */
     const char *value; /* what help calls the value */
     arg_type type;
-    bool required;              /* texts only */
-    size_t offset;              /* of the member in the settings */
-    double min, max;            /* int and number; inclusive */
-    const char *const *choices; /* NULL-terminated */
+    bool required;   /* texts only */
+    size_t offset;   /* of the member in the settings */
+    double min, max; /* int and number; inclusive */
+    /* NULL-terminated. Of a number: the one word that may stand for it, read as NAN. */
+    const char *const *choices;
     const char *unit;
     const char *initial;  /* the default as the user would write it; parsed like it */
     const char *computed; /* in help, if the default depends on the input */

@@ -33,6 +33,10 @@ static bool set_int(const arg *row, const char *text, arg_int *out)
 static bool set_number(const arg *row, const char *text, arg_number *out)
 {
     double value;
+    if (row->choices && strcmp(text, row->choices[0]) == 0) {
+        out->value = NAN;
+        return true;
+    }
     if (!args_number(text, &value) || value < row->min || value > row->max)
         return false;
     out->value = value;
@@ -157,7 +161,8 @@ void args_describe_values(const arg *row, char *out, size_t size)
         break;
     case ARG_INT:
     case ARG_NUMBER:
-        snprintf(out, size, "%.10g to %.10g%s%s", row->min, row->max, space, unit);
+        snprintf(out, size, "%.10g to %.10g%s%s%s%s", row->min, row->max, space, unit,
+                 row->choices ? ", or " : "", row->choices ? row->choices[0] : "");
         break;
     case ARG_VECTOR:
         snprintf(out, size, "three numbers X,Y,Z%s%s", space, unit);

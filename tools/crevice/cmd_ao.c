@@ -173,6 +173,8 @@ static const arg pass_rows[] = {
 };
 static const arg_table pass_table = ARG_TABLE("Passes", pass_rows);
 
+static const char *const found_words[] = {"fit", NULL};
+
 static const arg camera_rows[] = {
     {.name = "--camera",
      .value = "FILE",
@@ -187,11 +189,13 @@ static const arg camera_rows[] = {
      .help = "the order in which a .chan's rotations are applied"},
     {.name = "--vfov",
      .value = "DEG",
+     .choices = found_words,
      ARG_RANGE(0.1, 179.0),
      .unit = "degrees",
      ARG_INTO(ARG_NUMBER, ao_settings, vfov_deg),
      .computed = "from the file's metadata",
-     .help = "full vertical field of view"},
+     .help = "full vertical field of view; fit: find the one at which normals and depth "
+             "agree, for all frames of a shot"},
     {.name = "--hfov",
      .value = "DEG",
      ARG_RANGE(0.1, 179.0),
@@ -386,7 +390,8 @@ static io_passes_request make_request(const ao_settings *s)
         request.flip_normals[s->normal_flip[i] - 'x'] = true;
     if (s->background.given)
         request.depth_format.background = (float)s->background.value;
-    if (s->vfov_deg.given)
+    request.fit_vfov = s->vfov_deg.given && isnan(s->vfov_deg.value);
+    if (s->vfov_deg.given && !request.fit_vfov)
         request.vfov_rad = (float)(s->vfov_deg.value * 3.14159265358979323846 / 180.0);
     if (s->hfov_deg.given)
         request.hfov_rad = (float)(s->hfov_deg.value * 3.14159265358979323846 / 180.0);

@@ -2,6 +2,7 @@
 #include "made.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -28,8 +29,8 @@ static void append_number(char made[IO_MADE_SIZE], const char *name, const arg_n
         append(made, " %s=%.9g", name, n->value);
 }
 
-void made_describe(const ao_settings *s, const crv_options *o, uint64_t cameras,
-                   char made[IO_MADE_SIZE])
+void made_describe(const ao_settings *s, const crv_options *o, float vfov_rad,
+                   uint64_t cameras, char made[IO_MADE_SIZE])
 {
     made[0] = '\0';
     append(made, "crevice %s ao: method=%s filter=%s", crv_version(), o->method->name,
@@ -51,6 +52,8 @@ void made_describe(const ao_settings *s, const crv_options *o, uint64_t cameras,
     append_number(made, "far", &s->z_far);
     append_number(made, "background", &s->background);
     append_number(made, "vfov", &s->vfov_deg);
+    if (s->vfov_deg.given && isnan(s->vfov_deg.value))
+        append(made, ",%.9g", (double)vfov_rad);
     append_number(made, "hfov", &s->hfov_deg);
     append_number(made, "lens", &s->lens_mm);
     append_number(made, "sensor", &s->sensor_mm);

@@ -17,9 +17,9 @@ typedef struct made_state {
 } made_state;
 
 /* Whatever of the settings changes the result, so that two results can be told apart.
- * cameras: the checksum of --camera's file. */
-void made_describe(const ao_settings *s, const crv_options *options, uint64_t cameras,
-                   char made[IO_MADE_SIZE]);
+ * vfov_rad: the field of view of --vfov fit. cameras: the checksum of --camera's file. */
+void made_describe(const ao_settings *s, const crv_options *options, float vfov_rad,
+                   uint64_t cameras, char made[IO_MADE_SIZE]);
 
 /* Adds the state after a frame. */
 void made_add_state(char made[IO_MADE_SIZE], const made_state *state);

@@ -202,15 +202,21 @@ static int load(const shot *t, const frame_paths *paths, io_frame *frame, report
     return EXIT_DONE;
 }
 
+/* The i-th of some frames that are spread over the shot, the first included. */
+static int32_t spread_frame(const shot *t, int32_t i)
+{
+    const int32_t last = frames_count(t->list) - 1;
+    const int32_t parts = last < LOOKED_AT ? last : LOOKED_AT;
+    return frames_at(t->list, i < parts ? (int32_t)((int64_t)i * last / parts) : last);
+}
+
 /* Lets other frames of the shot decide how normals are read, if the first cannot. */
 static void ask_the_shot(shot *t, report *r)
 {
     const int32_t count = t->list ? frames_count(t->list) : 0;
     frame_paths paths;
     for (int32_t i = 1; i <= LOOKED_AT && i < count; i++) {
-        const int32_t number = frames_at(
-            t->list, (int32_t)((int64_t)i * (count - 1)
-                               / (count - 1 < LOOKED_AT ? count - 1 : LOOKED_AT)));
+        const int32_t number = spread_frame(t, i);
         io_frame frame = {0};
         io_passes_request request;
         if (name_frame(t->settings, number, &paths, r) != EXIT_DONE
@@ -246,7 +252,10 @@ static int load_as_shot(shot *t, const frame_paths *paths, io_frame *frame, repo
     }
     if (result != EXIT_DONE)
         return result;
+    if (!t->request.is_later)
+        t->request.usual_deviation = frame->deviation;
     t->request.is_later = true;
+    t->request.zoom_told |= frame->zooms;
     t->request.depth_format.encoding = frame->encoding;
     return masks_take_out(t->settings, paths->input, frame, r);
 }
@@ -280,6 +289,34 @@ static int process(shot *t, const frame_paths *paths, report *r)
     if (result == EXIT_DONE)
         result = write_result(t, input, output, &frame, &ao, r);
     io_image_free(&ao);
+    io_frame_free(&frame);
+    return result;
+}
+
+/* --vfov fit: the first frame that decides it, for all. */
+static int find_lens(shot *t, report *r)
+{
+    frame_paths paths;
+    io_passes_request request;
+    io_frame frame = {0};
+    int result = EXIT_FAILED;
+    for (int32_t i = 0; i <= LOOKED_AT + 1 && result == EXIT_FAILED; i++) {
+        /* In the end the first again, for its error line. */
+        const bool speak = i == LOOKED_AT + 1;
+        result = name_frame(t->settings, spread_frame(t, speak ? 0 : i), &paths, r);
+        if (result == EXIT_DONE)
+            result = request_frame(t, &paths, &request, speak ? r : NULL);
+        if (result == EXIT_DONE
+            && io_frame_load(paths.input, &request, &frame, speak ? &r->logger : NULL))
+            result = EXIT_FAILED;
+    }
+    /* Positions tell the camera of each frame. */
+    if (result == EXIT_DONE && frame.fitted_vfov_rad > 0.0f) {
+        t->request.fit_vfov = false;
+        t->request.vfov_rad = frame.fitted_vfov_rad;
+        report_info(r, "field of view: --vfov %.4f, found from %s for the whole shot",
+                    (double)frame.fitted_vfov_rad * 57.29577951308232, paths.input);
+    }
     io_frame_free(&frame);
     return result;
 }
@@ -377,7 +414,13 @@ int shot_run(const ao_settings *settings, const io_passes_request *request,
                                   : EXIT_DONE;
     if (result != EXIT_DONE)
         return result;
-    made_describe(settings, &t.options, t.cameras.checksum, t.made);
+    if (t.request.fit_vfov && list)
+        result = find_lens(&t, r);
+    if (result != EXIT_DONE) {
+        camera_file_free(&t.cameras);
+        return result;
+    }
+    made_describe(settings, &t.options, t.request.vfov_rad, t.cameras.checksum, t.made);
     result = estimate_open(&t.estimator, &settings->common, r);
     if (result == EXIT_DONE)
         result = find_radius(&t, r);
