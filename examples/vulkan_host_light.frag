@@ -5,8 +5,7 @@ layout(set = 0, binding = 0) uniform sampler2D depth;
 layout(set = 0, binding = 1) uniform sampler2D normals;
 layout(set = 0, binding = 2) uniform sampler2D accessibility;
 layout(push_constant) uniform Push {
-    mat4 view_projection;
-    int guard_px; /* how far depth and normals reach beyond the picture */
+    layout(offset = 68) int guard_px; /* how far depth and normals reach beyond the picture */
 };
 layout(location = 0) out vec4 colour;
 

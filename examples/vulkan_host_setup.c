@@ -260,7 +260,129 @@ void host_buffer_free(const host *h, host_buffer *b)
     *b = (host_buffer){0};
 }
 
+/* ---- frames in flight ---- */
+
+host_frame host_frame_make(const host *h)
+{
+    host_frame f = {0};
+    const VkCommandPoolCreateInfo pool = {.sType =
+                                              VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                          .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+                                          .queueFamilyIndex = h->family};
+    host_check(vkCreateCommandPool(h->device, &pool, NULL, &f.pool), "pool");
+    const VkCommandBufferAllocateInfo buffer = {
+        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+        .commandPool = f.pool,
+        .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+        .commandBufferCount = 1};
+    host_check(vkAllocateCommandBuffers(h->device, &buffer, &f.commands), "commands");
+    const VkFenceCreateInfo fence = {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO,
+                                     .flags = VK_FENCE_CREATE_SIGNALED_BIT};
+    host_check(vkCreateFence(h->device, &fence, NULL, &f.done), "fence");
+    return f;
+}
+
+void host_frame_begin(const host *h, host_frame *f)
+{
+    const VkCommandBufferBeginInfo begin = {
+        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+        .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+    host_check(vkResetFences(h->device, 1, &f->done), "fence");
+    host_check(vkResetCommandPool(h->device, f->pool, 0), "pool");
+    host_check(vkBeginCommandBuffer(f->commands, &begin), "begin");
+}
+
+void host_frame_submit(const host *h, host_frame *f)
+{
+    const VkCommandBufferSubmitInfo commands = {
+        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
+        .commandBuffer = f->commands};
+    const VkSubmitInfo2 submit = {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
+                                  .commandBufferInfoCount = 1,
+                                  .pCommandBufferInfos = &commands};
+    host_check(vkEndCommandBuffer(f->commands), "end");
+    host_check(vkQueueSubmit2(h->queue, 1, &submit, f->done), "submit");
+}
+
+void host_frame_free(const host *h, host_frame *f)
+{
+    vkDestroyFence(h->device, f->done, NULL);
+    vkDestroyCommandPool(h->device, f->pool, NULL);
+    *f = (host_frame){0};
+}
+
 /* ---- drawing ---- */
+
+static void make_layouts(const host *h, host_layout *l, uint32_t count,
+                         uint32_t push_bytes)
+{
+    VkDescriptorSetLayoutBinding bindings[HOST_MOST_IMAGES];
+    for (uint32_t i = 0; i < count; i++)
+        bindings[i] = (VkDescriptorSetLayoutBinding){
+            .binding = i,
+            .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+            .descriptorCount = 1,
+            .stageFlags = VK_SHADER_STAGE_FRAGMENT_BIT};
+    const VkDescriptorSetLayoutCreateInfo sets = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+        .bindingCount = count,
+        .pBindings = bindings};
+    host_check(vkCreateDescriptorSetLayout(h->device, &sets, NULL, &l->sets), "layout");
+    const VkPushConstantRange range = {.stageFlags = HOST_PUSH_STAGES,
+                                       .size = push_bytes};
+    const VkPipelineLayoutCreateInfo pipelines = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+        .setLayoutCount = 1,
+        .pSetLayouts = &l->sets,
+        .pushConstantRangeCount = 1,
+        .pPushConstantRanges = &range};
+    host_check(vkCreatePipelineLayout(h->device, &pipelines, NULL, &l->pipelines),
+               "layout");
+}
+
+host_layout host_layout_make(const host *h, const VkImageView *views, uint32_t count,
+                             uint32_t push_bytes)
+{
+    host_layout l = {0};
+    const VkSamplerCreateInfo sampler = {.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
+    const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count};
+    const VkDescriptorPoolCreateInfo pool = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+        .maxSets = 1,
+        .poolSizeCount = 1,
+        .pPoolSizes = &size};
+    make_layouts(h, &l, count, push_bytes);
+    host_check(vkCreateSampler(h->device, &sampler, NULL, &l.sampler), "sampler");
+    host_check(vkCreateDescriptorPool(h->device, &pool, NULL, &l.pool), "pool");
+    const VkDescriptorSetAllocateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+        .descriptorPool = l.pool,
+        .descriptorSetCount = 1,
+        .pSetLayouts = &l.sets};
+    host_check(vkAllocateDescriptorSets(h->device, &info, &l.set), "set");
+    for (uint32_t i = 0; i < count; i++) {
+        const VkDescriptorImageInfo image = {l.sampler, views[i],
+                                             VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+        const VkWriteDescriptorSet write = {
+            .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+            .dstSet = l.set,
+            .dstBinding = i,
+            .descriptorCount = 1,
+            .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+            .pImageInfo = &image};
+        vkUpdateDescriptorSets(h->device, 1, &write, 0, NULL);
+    }
+    return l;
+}
+
+void host_layout_free(const host *h, host_layout *l)
+{
+    vkDestroyDescriptorPool(h->device, l->pool, NULL);
+    vkDestroySampler(h->device, l->sampler, NULL);
+    vkDestroyPipelineLayout(h->device, l->pipelines, NULL);
+    vkDestroyDescriptorSetLayout(h->device, l->sets, NULL);
+    *l = (host_layout){0};
+}
 
 static VkPipelineShaderStageCreateInfo stage(const host *h, host_shader shader,
                                              VkShaderStageFlagBits which)
@@ -278,20 +400,11 @@ static VkPipelineShaderStageCreateInfo stage(const host *h, host_shader shader,
 }
 
 VkPipeline host_pipeline_make(const host *h, VkPipelineLayout layout, host_shader vertex,
-                              host_shader fragment, uint32_t stride,
-                              VkFormat colour_format, VkFormat depth_format)
+                              host_shader fragment, VkFormat colour_format,
+                              VkFormat depth_format)
 {
-    const VkVertexInputBindingDescription binding = {0, stride,
-                                                     VK_VERTEX_INPUT_RATE_VERTEX};
-    const VkVertexInputAttributeDescription attributes[] = {
-        {0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0},
-        {1, 0, VK_FORMAT_R32G32B32_SFLOAT, 3 * sizeof(float)}};
     const VkPipelineVertexInputStateCreateInfo input = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
-        .vertexBindingDescriptionCount = stride ? 1 : 0,
-        .pVertexBindingDescriptions = &binding,
-        .vertexAttributeDescriptionCount = stride ? 2 : 0,
-        .pVertexAttributeDescriptions = attributes};
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
     const VkPipelineInputAssemblyStateCreateInfo assembly = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
         .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
@@ -351,6 +464,35 @@ VkPipeline host_pipeline_make(const host *h, VkPipelineLayout layout, host_shade
     return pipeline;
 }
 
+void host_rendering_begin(VkCommandBuffer commands, VkImageView colour, VkImageView depth,
+                          int width, int height)
+{
+    const VkRenderingAttachmentInfo colours = {
+        .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+        .imageView = colour,
+        .imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+        .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
+        .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
+    const VkRenderingAttachmentInfo depths = {
+        .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+        .imageView = depth,
+        .imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+        .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
+        .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
+    const VkRect2D area = {{0, 0}, {(uint32_t)width, (uint32_t)height}};
+    const VkViewport viewport = {
+        .width = (float)width, .height = (float)height, .maxDepth = 1};
+    const VkRenderingInfo info = {.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+                                  .renderArea = area,
+                                  .layerCount = 1,
+                                  .colorAttachmentCount = 1,
+                                  .pColorAttachments = &colours,
+                                  .pDepthAttachment = depth ? &depths : NULL};
+    vkCmdBeginRendering(commands, &info);
+    vkCmdSetViewport(commands, 0, 1, &viewport);
+    vkCmdSetScissor(commands, 0, 1, &area);
+}
+
 void host_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect,
                   host_use before, host_use after)
 {
@@ -370,4 +512,40 @@ void host_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags as
                                    .imageMemoryBarrierCount = 1,
                                    .pImageMemoryBarriers = &barrier};
     vkCmdPipelineBarrier2(commands, &info);
+}
+
+void host_readback(VkCommandBuffer commands, VkImage image, int layer, int width,
+                   int height, const host_buffer *to)
+{
+    const VkBufferImageCopy copy = {
+        .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, (uint32_t)layer, 1},
+        .imageExtent = {(uint32_t)width, (uint32_t)height, 1}};
+    const VkMemoryBarrier2 barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                      .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
+                                      .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                      .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
+                                      .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
+    const VkDependencyInfo info = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                   .memoryBarrierCount = 1,
+                                   .pMemoryBarriers = &barrier};
+    vkCmdCopyImageToBuffer(commands, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                           to->buffer, 1, &copy);
+    vkCmdPipelineBarrier2(commands, &info);
+}
+
+int host_write_ppm(const char *path, const host_buffer *rgba, int width, int height)
+{
+    const unsigned char *bytes = rgba->bytes;
+    FILE *file = fopen(path, "wb");
+    int failed = !file;
+    if (file) {
+        fprintf(file, "P6\n%d %d\n255\n", width, height);
+        for (int i = 0; i < width * height; i++)
+            fwrite(bytes + 4 * i, 1, 3, file);
+        failed = ferror(file);
+        failed |= fclose(file) != 0;
+    }
+    if (failed)
+        perror(path);
+    return failed;
 }

@@ -52,16 +52,50 @@ typedef struct host_buffer {
 host_buffer host_buffer_make(const host *h, size_t size, VkBufferUsageFlags usage);
 void host_buffer_free(const host *h, host_buffer *buffer);
 
+/* What a frame in flight has of its own. The fence is signalled at first. */
+typedef struct host_frame {
+    VkCommandPool pool;
+    VkCommandBuffer commands;
+    VkFence done;
+} host_frame;
+
+host_frame host_frame_make(const host *h);
+void host_frame_free(const host *h, host_frame *frame);
+/* Begins its commands anew, once it is done; submits them. */
+void host_frame_begin(const host *h, host_frame *frame);
+void host_frame_submit(const host *h, host_frame *frame);
+
+/* Images that fragment shaders sample in SHADER_READ_ONLY_OPTIMAL, from binding 0 on, and
+ * push constants of vertex and fragment shaders. */
+typedef struct host_layout {
+    VkDescriptorSetLayout sets;
+    VkPipelineLayout pipelines;
+    VkDescriptorPool pool;
+    VkDescriptorSet set;
+    VkSampler sampler;
+} host_layout;
+
+enum { HOST_MOST_IMAGES = 4 };
+enum { HOST_PUSH_STAGES = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT };
+
+host_layout host_layout_make(const host *h, const VkImageView *views, uint32_t count,
+                             uint32_t push_bytes);
+void host_layout_free(const host *h, host_layout *layout);
+
 typedef struct host_shader {
     const uint32_t *words;
     size_t size_bytes;
 } host_shader;
 
-/* Triangles by dynamic rendering. stride 0: no vertices are read; else two vec3 each.
- * depth_format UNDEFINED: no depth; else the nearest, reversed, stays. */
+/* Triangles by dynamic rendering, without vertex buffers. depth_format UNDEFINED: no
+ * depth; else the nearest, reversed, stays. */
 VkPipeline host_pipeline_make(const host *h, VkPipelineLayout layout, host_shader vertex,
-                              host_shader fragment, uint32_t stride,
-                              VkFormat colour_format, VkFormat depth_format);
+                              host_shader fragment, VkFormat colour_format,
+                              VkFormat depth_format);
+
+/* Begins to draw into images of this size, cleared to 0. depth NULL: none. */
+void host_rendering_begin(VkCommandBuffer commands, VkImageView colour, VkImageView depth,
+                          int width, int height);
 
 /* A barrier for one image: from what was done to it, to what will be. */
 typedef struct host_use {
@@ -71,5 +105,12 @@ typedef struct host_use {
 } host_use;
 void host_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect,
                   host_use before, host_use after);
+
+/* Copies a layer of a colour image in TRANSFER_SRC_OPTIMAL, for the host to read. */
+void host_readback(VkCommandBuffer commands, VkImage image, int layer, int width,
+                   int height, const host_buffer *to);
+
+/* Writes 4 bytes a pixel as a PPM. 0; or 1 after a line to stderr. */
+int host_write_ppm(const char *path, const host_buffer *rgba, int width, int height);
 
 #endif

@@ -9,23 +9,15 @@ int engine_open(engine *e, int validate)
     *e = (engine){0};
     if (host_open(&e->h, validate) != 0)
         return -1;
-    const VkCommandPoolCreateInfo pool = {
-        .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-        .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
-        .queueFamilyIndex = e->h.family};
-    host_check(vkCreateCommandPool(e->h.device, &pool, NULL, &e->pool), "pool");
-    const VkCommandBufferAllocateInfo buffers = {
-        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-        .commandPool = e->pool,
-        .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-        .commandBufferCount = ENGINE_COMMANDS};
-    host_check(vkAllocateCommandBuffers(e->h.device, &buffers, e->commands), "commands");
+    for (int i = 0; i < ENGINE_COMMANDS; i++)
+        e->frames[i] = host_frame_make(&e->h);
     return 0;
 }
 
 void engine_close(engine *e)
 {
-    vkDestroyCommandPool(e->h.device, e->pool, NULL);
+    for (int i = 0; i < ENGINE_COMMANDS; i++)
+        host_frame_free(&e->h, &e->frames[i]);
     host_close(&e->h);
 }
 
@@ -47,23 +39,13 @@ crv_vulkan_host engine_host(const engine *e)
 
 VkCommandBuffer engine_begin(engine *e, int which)
 {
-    const VkCommandBufferBeginInfo begin = {
-        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-        .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    host_check(vkBeginCommandBuffer(e->commands[which], &begin), "begin");
-    return e->commands[which];
+    host_frame_begin(&e->h, &e->frames[which]);
+    return e->frames[which].commands;
 }
 
 void engine_submit(engine *e, int which)
 {
-    const VkCommandBufferSubmitInfo commands = {
-        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
-        .commandBuffer = e->commands[which]};
-    const VkSubmitInfo2 submit = {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
-                                  .commandBufferInfoCount = 1,
-                                  .pCommandBufferInfos = &commands};
-    host_check(vkEndCommandBuffer(e->commands[which]), "end");
-    host_check(vkQueueSubmit2(e->h.queue, 1, &submit, VK_NULL_HANDLE), "submit");
+    host_frame_submit(&e->h, &e->frames[which]);
 }
 
 void engine_wait(engine *e)
@@ -144,21 +126,9 @@ void *engine_download(engine *e, const host_image *image, int width, int height,
 void *engine_download_layer(engine *e, const host_image *image, int layer, int width,
                             int height, size_t size)
 {
-    VkBufferImageCopy copy = whole(VK_IMAGE_ASPECT_COLOR_BIT, width, height);
-    copy.imageSubresource.baseArrayLayer = (uint32_t)layer;
-    const VkMemoryBarrier2 barrier = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                      .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
-                                      .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                      .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
-                                      .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
-    const VkDependencyInfo info = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                   .memoryBarrierCount = 1,
-                                   .pMemoryBarriers = &barrier};
     host_buffer buffer = host_buffer_make(&e->h, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     const VkCommandBuffer commands = engine_begin(e, 0);
-    vkCmdCopyImageToBuffer(commands, image->image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                           buffer.buffer, 1, &copy);
-    vkCmdPipelineBarrier2(commands, &info);
+    host_readback(commands, image->image, layer, width, height, &buffer);
     engine_submit(e, 0);
     engine_wait(e);
     void *bytes = malloc(size);

@@ -10,8 +10,7 @@ enum { ENGINE_COMMANDS = 8 };
 
 typedef struct engine {
     host h;
-    VkCommandPool pool;
-    VkCommandBuffer commands[ENGINE_COMMANDS];
+    host_frame frames[ENGINE_COMMANDS];
 } engine;
 
 /* As host_open(): -1 if there is no device, or no validation layer. */
