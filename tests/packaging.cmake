@@ -50,3 +50,8 @@ if(TARGET example_minimal)
     packaging_test(packaging_example ${Python3_EXECUTABLE} ${here}/check_example.py
         $<TARGET_FILE:example_minimal> ${CMAKE_CURRENT_BINARY_DIR}/packaging_example)
 endif()
+if(TARGET example_host)
+    add_test(NAME example_host COMMAND ${Python3_EXECUTABLE} ${here}/check_host.py
+        $<TARGET_FILE:example_host>)
+    set_tests_properties(example_host PROPERTIES TIMEOUT 60)
+endif()
