@@ -38,6 +38,8 @@ needs_all='
 clang            clang
 chromium         chromium
 llvm-symbolizer  llvm
+Xvfb             xvfb
+-                libgtk-4-dev
 -                libclang-rt-dev
 -                libomp-dev
 -                slurmctld

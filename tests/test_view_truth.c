@@ -205,7 +205,8 @@ static void test_session(void **state)
     }
     for (;;) {
         if (worker_take(s.worker, &got, &number)) {
-            if (number == wanted && got.half[0].measured)
+            if (number == wanted && got.half[0].measured
+                && got.half[0].truth.passes >= 32)
                 break;
             shown_free(&got);
         }
@@ -214,7 +215,9 @@ static void test_session(void **state)
     assert_string_equal(got.problem, "");
     assert_true(fabsf(got.wish.half[0].options.radius - 0.4f) < 1e-6f);
     assert_int_equal(got.buffers->width, WIDTH);
-    assert_true(got.half[0].rmse > 0.0 && got.half[0].rmse < 0.2);
+    /* The picture is small and full of grass; what is wrong is wrong by more. */
+    assert_true(got.half[0].rmse > 0.0 && got.half[0].rmse < 0.3);
+    assert_true(fabs(got.half[0].bias) < got.half[0].rmse);
     assert_true(got.half[0].time_ms > 0.0);
     assert_false(got.half[1].measured); /* it is the truth */
     shown_free(&got);

@@ -10,8 +10,10 @@
 #include "help_camera.h"
 #include "help_passes.h"
 #include "help_scenes.h"
+#include "launch.h"
 #include "common/help.h"
 #include "common/manual.h"
+#include "common/viewer_args.h"
 #include "common/nearest.h"
 
 #ifdef _OPENMP
@@ -20,10 +22,11 @@
 
 enum { THREADS_MAX = 1024 }; /* as --threads */
 
-static const command *const commands[] = {
-    &command_render,    &command_ao,      &command_gbuffer,
-    &command_reference, &command_compare, &command_methods,
-    &command_devices,   &command_bench,   NULL};
+static const command *const commands[] = {&command_render,  &command_ao,
+                                          &command_gbuffer, &command_reference,
+                                          &command_compare, &command_methods,
+                                          &command_devices, &command_bench,
+                                          &command_view,    NULL};
 
 static const command *find_command(const char *name, report *r)
 {
@@ -109,6 +112,8 @@ static int run_command(const command *c, int argc, char **argv, report *r)
         help_command(stdout, c, args_method(c, argc, argv));
         return EXIT_DONE;
     }
+    if (c->program)
+        return launch(c, argc, argv, r);
     void *settings = calloc(1, c->settings_size);
     if (!settings)
         return report_no_memory(r);

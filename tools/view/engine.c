@@ -133,8 +133,10 @@ static crv_options coarse_options(const engine *e, const crv_options *options)
 {
     crv_options o = *options;
     const float by = (float)e->coarseness;
-    o.max_radius_px /= by;
-    o.band_px = fmaxf(o.band_px / by, 1.0f);
+    if (crv_option_applies(crv_option_find("max_radius_px"), o.method, NULL))
+        o.max_radius_px /= by;
+    if (crv_option_applies(crv_option_find("band_px"), o.method, NULL))
+        o.band_px = fmaxf(o.band_px / by, 1.0f);
     return o;
 }
 
@@ -298,7 +300,7 @@ static bool make_room(const buffers *b, half_shown *h)
 {
     const size_t count = (size_t)b->width * (size_t)b->height;
     h->accessibility = malloc(count * sizeof *h->accessibility);
-    h->pixels = malloc(4 * count);
+    h->pixels = malloc(count * sizeof *h->pixels);
     h->truth_plane = malloc(count * sizeof *h->truth_plane);
     return h->accessibility && h->pixels && h->truth_plane;
 }
@@ -312,7 +314,7 @@ static bool make_halves(engine *e, const wish *w, shown *out)
         if (done && e->truth && is_settled(e, w))
             h->has_truth = truth_read(e->truth, i, e->buffers, h->truth_plane, &h->truth);
         done = done && fill_content(e, w, i, h);
-        if (done && h->has_truth && h->truth.passes > 0
+        if (done && h->has_truth && h->truth.passes > 1
             && w->half[i].content != HALF_TRUTH)
             measure(e->buffers, h);
     }

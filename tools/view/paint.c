@@ -8,29 +8,26 @@
 #include "io.h"
 
 /* Steps of the heat map's colours on each side; more than a byte can tell apart. */
-enum { HEAT_STEPS = 1024, OPAQUE = 255 };
+enum { HEAT_STEPS = 1024 };
 
-static void put(uint8_t *out, size_t i, uint8_t r, uint8_t g, uint8_t b)
+static uint32_t pixel(uint8_t r, uint8_t g, uint8_t b)
 {
-    out[4 * i] = r;
-    out[4 * i + 1] = g;
-    out[4 * i + 2] = b;
-    out[4 * i + 3] = OPAQUE;
+    return 0xff000000u | (uint32_t)r << 16 | (uint32_t)g << 8 | b;
 }
 
-void paint_grey(const float *accessibility, size_t count, uint8_t *out)
+void paint_grey(const float *accessibility, size_t count, uint32_t *out)
 {
 #ifdef _OPENMP
 #pragma omp parallel for
 #endif
     for (size_t i = 0; i < count; i++) {
         const uint8_t grey = (uint8_t)io_quantise(accessibility[i], false, 255);
-        put(out, i, grey, grey, grey);
+        out[i] = pixel(grey, grey, grey);
     }
 }
 
 void paint_lit(const float *dark, const float *light, const float *accessibility,
-               size_t count, uint8_t *out)
+               size_t count, uint32_t *out)
 {
 #ifdef _OPENMP
 #pragma omp parallel for
@@ -43,43 +40,43 @@ void paint_lit(const float *dark, const float *light, const float *accessibility
                 low + (double)accessibility[i] * ((double)light[3 * i + c] - low);
             byte[c] = (uint8_t)io_quantise((float)value, true, 255);
         }
-        put(out, i, byte[0], byte[1], byte[2]);
+        out[i] = pixel(byte[0], byte[1], byte[2]);
     }
 }
 
-static void byte_colour(const float linear[3], uint8_t out[3])
+static uint32_t screen_colour(const float linear[3])
 {
+    uint8_t byte[3];
     for (int c = 0; c < 3; c++)
-        out[c] = (uint8_t)io_quantise(linear[c], true, 255);
+        byte[c] = (uint8_t)io_quantise(linear[c], true, 255);
+    return pixel(byte[0], byte[1], byte[2]);
 }
 
 void paint_difference(const float *a, const float *b, const uint8_t *surface,
-                      double scale, size_t count, uint8_t *out)
+                      double scale, size_t count, uint32_t *out)
 {
-    uint8_t colours[2 * HEAT_STEPS + 1][3], grey[3];
+    uint32_t colours[2 * HEAT_STEPS + 1];
     const float none[3] = {heatmap_background, heatmap_background, heatmap_background};
     for (int k = -HEAT_STEPS; k <= HEAT_STEPS; k++) {
         float linear[3];
         heatmap_colour((double)k / HEAT_STEPS, linear);
-        byte_colour(linear, colours[k + HEAT_STEPS]);
+        colours[k + HEAT_STEPS] = screen_colour(linear);
     }
-    byte_colour(none, grey);
+    const uint32_t grey = screen_colour(none);
 #ifdef _OPENMP
 #pragma omp parallel for
 #endif
     for (size_t i = 0; i < count; i++) {
         const double t = fmin(fmax(((double)a[i] - (double)b[i]) / scale, -1.0), 1.0);
-        const uint8_t *colour =
-            surface[i] ? colours[(int)lround(t * HEAT_STEPS) + HEAT_STEPS] : grey;
-        put(out, i, colour[0], colour[1], colour[2]);
+        out[i] = surface[i] ? colours[(int)lround(t * HEAT_STEPS) + HEAT_STEPS] : grey;
     }
 }
 
-void paint_unknown(size_t first, size_t count, int32_t width, uint8_t *out)
+void paint_unknown(size_t first, size_t count, int32_t width, uint32_t *out)
 {
     for (size_t i = first; i < count; i++) {
         const size_t x = i % (size_t)width, y = i / (size_t)width;
         const uint8_t grey = (x / 8 + y / 8) % 2 == 0 ? 96 : 112;
-        put(out, i, grey, grey, grey);
+        out[i] = pixel(grey, grey, grey);
     }
 }

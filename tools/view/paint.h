@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* paint.h: planes of floats to pixels of the screen: R, G, B and 255, a byte each. */
+/* paint.h: planes of floats to pixels of the screen, 0xFFRRGGBB, as Cairo has them. */
 #ifndef VIEW_PAINT_H
 #define VIEW_PAINT_H
 
@@ -7,18 +7,18 @@
 #include <stdint.h>
 
 /* Accessibility as the grey that a PNG of it has. */
-void paint_grey(const float *accessibility, size_t count, uint8_t *out);
+void paint_grey(const float *accessibility, size_t count, uint32_t *out);
 
 /* dark + accessibility (light - dark), linear light, as the sRGB that a PNG has: dark and
  * light are three floats a pixel. */
 void paint_lit(const float *dark, const float *light, const float *accessibility,
-               size_t count, uint8_t *out);
+               size_t count, uint32_t *out);
 
 /* a - b as the heat map of `crevice compare`; grey if surface is 0. */
 void paint_difference(const float *a, const float *b, const uint8_t *surface,
-                      double scale, size_t count, uint8_t *out);
+                      double scale, size_t count, uint32_t *out);
 
 /* The pixels from `first` on, of which nothing is known yet. */
-void paint_unknown(size_t first, size_t count, int32_t width, uint8_t *out);
+void paint_unknown(size_t first, size_t count, int32_t width, uint32_t *out);
 
 #endif

@@ -38,10 +38,10 @@ typedef struct wish {
 } wish;
 
 typedef struct half_shown {
-    uint8_t *pixels;      /* RGBA */
+    uint32_t *pixels;     /* 0xFFRRGGBB */
     float *accessibility; /* of each pixel */
     double time_ms;       /* of the method's run; 0: none ran */
-    bool measured;        /* against a truth of at least one pass: */
+    bool measured;        /* against a truth of at least two passes: */
     double rmse;          /* without what the truth's own noise adds */
     double bias;
     bool has_truth;

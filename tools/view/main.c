@@ -1,0 +1,136 @@
+/* SPDX-License-Identifier: MIT */
+/* crevice-view: `crevice view` in a program of its own, so that the tool links no GTK. */
+#include <string.h>
+
+#include "app.h"
+#include "common/help.h"
+#include "panel.h"
+#include "script.h"
+
+static void forget_pictures(app *a)
+{
+    for (int i = 0; i < HALVES; i++)
+        g_clear_pointer(&a->picture[i], cairo_surface_destroy);
+    shown_free(&a->shown);
+}
+
+/* A failed wish leaves the picture before on the screen, with a line that says why. */
+static void take_picture(app *a)
+{
+    shown s;
+    uint64_t number;
+    if (!worker_take(a->session.worker, &s, &number))
+        return;
+    a->shown_number = number;
+    if (!s.buffers) {
+        app_tell(a, "%s", s.problem);
+        shown_free(&s);
+        gtk_widget_queue_draw(a->canvas);
+        return;
+    }
+    forget_pictures(a);
+    a->shown = s;
+    for (int i = 0; i < HALVES; i++)
+        a->picture[i] = cairo_image_surface_create_for_data(
+            (unsigned char *)s.half[i].pixels, CAIRO_FORMAT_RGB24, s.buffers->width,
+            s.buffers->height, 4 * s.buffers->width);
+    for (int i = 0; i < HALVES; i++)
+        panel_show_numbers(a->panel[i]);
+    probe_tell(a);
+    gtk_widget_queue_draw(a->canvas);
+}
+
+static gboolean on_ready(gpointer user)
+{
+    app *a = user;
+    atomic_store(&a->notified, 0);
+    if (a->window)
+        take_picture(a);
+    return G_SOURCE_REMOVE;
+}
+
+/* By the worker's thread. */
+static void ready(void *user)
+{
+    app *a = user;
+    if (atomic_exchange(&a->notified, 1) == 0)
+        g_idle_add_full(G_PRIORITY_HIGH_IDLE, on_ready, a, NULL);
+}
+
+static void on_destroy(GtkWidget *window, gpointer user)
+{
+    (void)window;
+    app *a = user;
+    if (a->settle)
+        g_source_remove(a->settle);
+    a->settle = 0;
+    a->window = NULL;
+}
+
+/* No GtkApplication: nothing here needs a session bus, which servers lack. */
+static int run_window(app *a)
+{
+    window_make(a);
+    g_signal_connect(a->window, "destroy", G_CALLBACK(on_destroy), a);
+    if (!a->session.source.model)
+        app_ask(a);
+    if (a->script)
+        script_start(a->script, a);
+    while (a->window)
+        g_main_context_iteration(NULL, TRUE);
+    return a->result;
+}
+
+static int run(const viewer_settings *settings, report *r)
+{
+    app a = {.settings = settings, .split = 0.5, .overlay = true, .pointer_x = -1.0};
+    int result = EXIT_DONE;
+    if (settings->script)
+        result = script_load(settings->script, &a.script, r);
+    if (result == EXIT_DONE)
+        result = session_open(&a.session, settings, ready, &a, r);
+    if (result == EXIT_DONE)
+        result = run_window(&a);
+    session_close(&a.session);
+    while (g_main_context_iteration(NULL, FALSE))
+        continue;
+    forget_pictures(&a);
+    for (int i = 0; i < HALVES; i++)
+        panel_free(a.panel[i]);
+    script_free(a.script);
+    return result;
+}
+
+static bool wants_help(int argc, char **argv)
+{
+    for (int i = 1; i < argc; i++)
+        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0)
+            return true;
+    return false;
+}
+
+int main(int argc, char **argv)
+{
+    static viewer_settings settings;
+    report r;
+    report_init(&r);
+    if (wants_help(argc, argv)) {
+        help_command(stdout, &command_view,
+                     args_method(&command_view, argc - 1, argv + 1));
+        return EXIT_DONE;
+    }
+    int result = args_parse(&command_view, argc - 1, argv + 1, &settings, &r);
+    if (result != EXIT_DONE)
+        return result;
+    /* Numbers are read and written with a point everywhere. */
+    gtk_disable_setlocale();
+    if (!gtk_init_check()) {
+        report_error(&r, "view: there is no display; set DISPLAY or WAYLAND_DISPLAY, or "
+                         "use `crevice render`");
+        return EXIT_FAILED;
+    }
+    result = run(&settings, &r);
+    if (result != EXIT_DONE && r.errors == 0)
+        report_error(&r, "view: failed");
+    return result;
+}

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: MIT */
+/* script.h: a text of actions, one a line, that a window does by itself. */
+#ifndef VIEW_SCRIPT_H
+#define VIEW_SCRIPT_H
+
+#include "app.h"
+
+enum { SCRIPT_WORDS = 8 }; /* of a line, at most */
+
+struct script {
+    app *app;
+    const char *path;
+    char **lines;            /* owned, as g_strsplit() makes them */
+    int line;                /* the next, from 0 */
+    bool (*done)(script *s); /* what is waited for; NULL: nothing */
+    int32_t number[4];       /* of the action that is waited for */
+    gint64 since, tried;     /* when the wait began, and the last attempt, us */
+    char path_out[4096];     /* of a screenshot that waits to be taken */
+    /* measure: */
+    gulong painted;
+    GdkFrameClock *clock; /* owned while it measures */
+    int half, count, taken;
+    double from, to, started_ms;
+    char key[64];
+    GArray *times; /* double, ms; owned */
+};
+
+/* Reads it. Returns an exit code. */
+int script_load(const char *path, script **out, report *r);
+void script_free(script *s);
+
+/* Does the lines from now on. A line that fails ends the program with an error line and
+ * exit code 1. */
+void script_start(script *s, app *a);
+
+/* One line, in words. NULL, or what is wrong with it. */
+typedef struct script_action {
+    const char *name;
+    int words; /* that follow */
+    const char *(*run)(script *s, char **word);
+} script_action;
+extern const script_action script_actions[]; /* name NULL ends them */
+
+/* The word's half, 0 or 1; -1: neither. */
+int script_half(const char *word);
+bool script_number(const char *word, double *out);
+
+/* script_measure.c: measure HALF KEY FROM TO COUNT. */
+const char *script_measure(script *s, char **word);
+
+#endif
