@@ -97,7 +97,8 @@ def parts_table(report: dict[str, Any]) -> str:
                      "sampling", "left by the filter", "blur"],
                     [[r["view"], f"`{r['method']}`", *(number(r[k]) for k in keys)]
                      for r in report["missing"]
-                     if r["missing_data"] is not None and r["method"] in ("gtao", "hsao", "hbao")])
+                     if r["missing_data"] is not None
+                     and r["method"] in ("bitmask", "gtao", "hsao", "hbao")])
 
 
 def courtyard_parts(report: dict[str, Any]) -> dict[str, dict[str, str]]:

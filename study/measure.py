@@ -119,7 +119,7 @@ class Study:
 
     def estimate_arguments(self, view: View, options: Options, buffers: Buffers) -> list[str]:
         radius = [] if options.has("radius") else ["--radius", f"{view.radius:.9g}"]
-        return [str(self.frame_path(view, buffers)), *options.flags(), *radius]
+        return [str(self.frame_path(view, buffers)), "--crop", *options.flags(), *radius]
 
     def estimate(self, view: View, options: Options, buffers: Buffers = ONE_LAYER) -> Path:
         """The file with the picture, which is kept."""

@@ -58,6 +58,8 @@ FORMS = [Form("hbao", "none", "uniform, none", closed_forms.uniform_none),
          Form("gtao", "linear", "cosine, linear", LINEAR),
          Form("gtao", "none", "uniform, none", closed_forms.uniform_none),
          Form("gtao", "linear", "uniform, linear", closed_forms.uniform_linear),
+         Form("bitmask", "none", "cosine, none", NONE),
+         Form("bitmask", "linear", "uniform, linear", closed_forms.uniform_linear),
          Form("hsao", "none", "cosine, none", NONE),
          Form("hsao", "linear", "cosine, linear", LINEAR),
          Form("raymarch", "none", "cosine, none", NONE),
@@ -155,8 +157,9 @@ def make_groove(folder: Path, px: int) -> Groove:
 
 
 def run_groove(s: Study, groove: Groove, options: Options, seed: int) -> np.ndarray:
-    made = s.tool.make("ao", [str(groove.path), *options.set(seed=seed).flags(), "--radius", "1",
-                              "--ortho", f"{groove.height:.9g}", "--normal-space", "view"])
+    made = s.tool.make("ao", [str(groove.path), "--crop", *options.set(seed=seed).flags(),
+                              "--radius", "1", "--ortho", f"{groove.height:.9g}",
+                              "--normal-space", "view"])
     return images.read_single(made).astype(np.float64)
 
 
@@ -164,7 +167,8 @@ def options_of(s: Study, form: Form, **effort: Any) -> Options:
     """Behind the wall all is solid; each pixel has its own rotation and jitter."""
     intensity = {"intensity": ALCHEMY_STRENGTH} if form.occlusion is None else {}
     return s.options(form.method, filter="none", noise_size=64, falloff=form.falloff,
-                     weighting=form.weighting, bias_deg=0, thickness=0, **intensity, **effort)
+                     weighting=form.weighting, bias_deg=0, thickness=0,
+                     thickness_rule="constant", **intensity, **effort)
 
 
 def exact_of(groove: Groove, form: Form, options: Options) -> np.ndarray:

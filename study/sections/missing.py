@@ -18,6 +18,7 @@ TWO_LAYERS = Buffers(2, "surfaces")
 # error hangs on, without a filter.
 SUBJECTS: dict[str, tuple[str, dict[str, int]]] = {
     "gtao": ("none", {"directions": 24, "steps": 48}),
+    "bitmask": ("none", {"directions": 24, "steps": 48}),
     "hsao": ("none", {"directions": 16, "steps": 32, "normal_rays": 2}),
     "raymarch": ("none", {"directions": 16, "steps": 32, "normal_rays": 3}),
     "containment": ("none", {"samples": 96, "steps": 24}),
@@ -89,11 +90,11 @@ def take_apart(s: Study, row: Row, converged: dict[str, int]) -> dict[str, float
 def write(s: Study, rows: list[Row], figures: list[dict[str, Any]]) -> None:
     page = s.page
     page.heading(2, "missing", "What the errors are made of")
-    page.text("`gtao`, `hsao`, `raymarch` and `containment` without falloff (cosine weighting) and "
-              "`hbao` with linear falloff (uniform weighting), each at `high` with the default filter, "
-              "against ray tracing of the whole scene. Two layers: the next surface behind the "
-              "first as well (`--layers 2`). No guard band: nothing beyond the picture's border "
-              "occludes (`--guard-px 0`).")
+    page.text("`gtao`, `bitmask`, `hsao`, `raymarch` and `containment` without falloff (cosine "
+              "weighting) and `hbao` with linear falloff (uniform weighting), each at `high` with "
+              "the default filter, against ray tracing of the whole scene. Two layers: the next "
+              "surface behind the first as well (`--layers 2`). No guard band: nothing beyond the "
+              "picture's border occludes (`--guard-px 0`).")
     page.table("RMSE at `high` with the default filter, against ray tracing of the whole scene, "
                "over all pixels with a surface.",
                ["View", "Method", "Integral", "One layer", "Two layers",
