@@ -275,6 +275,8 @@ int io__exr_list(const io__exr *exr, io_image *image)
     for (int32_t i = 0; i < exr->channel_count; i++) {
         memcpy(image->channels[i].name, exr->channels[i].name, IO_NAME_SIZE);
         image->channels[i].is_half = exr->channels[i].is_half;
+        snprintf(image->channels[i].view, IO_VIEW_SIZE, "%s",
+                 view_of(exr, exr->channels[i].part));
     }
     return 0;
 }

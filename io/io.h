@@ -15,6 +15,7 @@
 #include "crevice/crevice.h"
 
 #define IO_NAME_SIZE 256
+#define IO_VIEW_SIZE 32
 
 typedef struct io_channel {
     char name[IO_NAME_SIZE]; /* full name; in multi-part files "part.channel" unless the
@@ -22,6 +23,8 @@ typedef struct io_channel {
     float *data;  /* width * height floats, packed, top row first; NULL in an image
                      from io_probe() */
     bool is_half; /* of io_probe(): the file stores half floats */
+    char view[IO_VIEW_SIZE]; /* of io_probe(): the eye that its part says it is of, or ""
+                              */
 } io_channel;
 
 /* Row-vector matrices as OpenEXR stores them: p' = (x, y, z, 1) * M, row-major. */

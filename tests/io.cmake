@@ -10,6 +10,7 @@ target_link_libraries(crevice_io_support
 
 crevice_test(test_io_exr SOURCES test_io_exr.c LIBS crevice_io_support)
 crevice_test(test_io_append SOURCES test_io_append.c LIBS crevice_io_support)
+crevice_test(test_views SOURCES test_views.c LIBS crevice_io_support)
 crevice_test(test_mattes SOURCES test_mattes.c LIBS crevice_io_support)
 crevice_test(test_io_formats SOURCES test_io_formats.c LIBS crevice_io_support)
 crevice_test(test_io_bad SOURCES test_io_bad.c LIBS crevice_io_support)

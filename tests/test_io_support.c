@@ -315,6 +315,9 @@ void support_make_exr(const char *path, const support_part *parts, int count,
     set_matrix(context, 0, "worldToNDC", world_to_ndc);
     for (int p = 0; p < count; p++)
         set_matrix(context, p, "worldToNDC", parts[p].world_to_ndc);
+    for (int p = 0; p < count; p++)
+        if (parts[p].view)
+            ok(exr_attr_set_string(context, p, "view", parts[p].view));
     ok(exr_write_header(context));
     for (int p = 0; p < count; p++) {
         if (parts[p].storage == EXR_STORAGE_TILED)

@@ -57,6 +57,7 @@ typedef struct support_part {
     const char *channels[8]; /* sorted by name */
     exr_pixel_type_t types[8];
     const float *world_to_ndc; /* of this part alone; NULL for none */
+    const char *view;          /* the attribute; NULL for none */
 } support_part;
 
 /* The value that channel c of part p holds at pixel (x, y) of the data window: a number

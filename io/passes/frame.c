@@ -13,6 +13,7 @@
 #include "names.h"
 #include "normals.h"
 #include "positions.h"
+#include "views.h"
 
 /* Blender writes this if a ray met nothing; no renderer writes more for a surface. */
 static const float usual_background = 1e10f;
@@ -326,7 +327,9 @@ int io_frame_load(const char *path, const io_passes_request *request, io_frame *
     memset(&frame, 0, sizeof frame);
     if (check_request(path, request, log) || io_probe(path, &probed, log))
         return -1;
-    int result = io__choose_passes(path, &probed, request, &names, log);
+    int result = io__keep_view(path, request, &probed, log);
+    if (!result)
+        result = io__choose_passes(path, &probed, request, &names, log);
     if (!result)
         result = read_passes(path, &names, &frame.image, log);
     if (!result)

@@ -68,6 +68,8 @@ typedef struct io_passes_request {
     bool is_later, zoom_told;
     int usual_reading;
     double usual_deviation;
+    /* Of stereo frames: the eye, NULL for any, and the names of all, with commas. */
+    const char *view, *views;
     io_passes_remedies remedies;
 } io_passes_request;
 

@@ -42,6 +42,11 @@ static const arg file_rows[] = {
      ARG_INTO(ARG_TEXT, ao_settings, frames),
      .help = "frames to compute, as 1-240, 1,3,10-20x2 or -5--1; one that fails is left "
              "out and listed at the end"},
+    {.name = "--views",
+     .value = "NAMES",
+     ARG_INTO(ARG_TEXT, ao_settings, views),
+     .help = "stereo: both eyes in one run, as left,right; in files for each, named with "
+             "%V or %v (l, r), or as views of one .exr"},
     {.name = "--crop",
      ARG_INTO(ARG_FLAG, ao_settings, crop),
      .help = "only the display window gets a result; overscan still occludes"},
@@ -340,7 +345,7 @@ static const char *shot_mistake(const ao_settings *s)
     return NULL;
 }
 
-static int check(const ao_settings *s, frame_list *list, report *r)
+static int check(const ao_settings *s, frame_list *list, view_list *views, report *r)
 {
     const char *mistake = depth_mistake(s);
     if (!mistake && s->normal_flip
@@ -354,6 +359,8 @@ static int check(const ao_settings *s, frame_list *list, report *r)
         mistake = shot_mistake(s);
     if (!mistake)
         mistake = append_mistake(s);
+    if (!mistake)
+        mistake = views_mistake(s, views);
     if (!mistake)
         mistake = frames_mistake(s, list);
     if (mistake) {
@@ -407,11 +414,12 @@ static int run(const void *settings, report *r)
 {
     const ao_settings *s = settings;
     frame_list list;
-    const int result = check(s, &list, r);
+    view_list views;
+    const int result = check(s, &list, &views, r);
     if (result != EXIT_DONE)
         return result;
     const io_passes_request request = make_request(s);
-    return shot_run(s, &request, s->frames ? &list : NULL, r);
+    return shot_run(s, &request, s->frames ? &list : NULL, &views, r);
 }
 
 const command command_ao = {

@@ -2,10 +2,12 @@
 #include "frame_copy.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "common/output.h"
+#include "passes/views.h"
+#include "views.h"
 
 enum { MAX_MULTIPLIED = 64 };
 
@@ -55,30 +57,40 @@ static bool add(multiplied *m, const char *name)
     return true;
 }
 
+/* Whether a channel is meant by NAME: its own, or a colour of that layer. In a file of
+ * several views the view is left out of the channel's name. */
+static bool is_meant(const io_channel *channel, const char *name, const char *view,
+                     bool *is_colour)
+{
+    char plain[IO_NAME_SIZE];
+    const size_t length = strlen(name);
+    snprintf(plain, sizeof plain, "%s", channel->name);
+    if (view[0] && !io_channel_is_of_view(channel, view, plain))
+        return false;
+    *is_colour = !strncmp(plain, name, length) && plain[length] == '.'
+                 && strchr("RGBrgb", plain[length + 1]) && plain[length + 1]
+                 && !plain[length + 2];
+    return *is_colour || !strcmp(plain, name);
+}
+
 /* A channel as it is called, or a layer's red, green and blue; a name that is neither is
  * left to io_append(), which lists those that there are. */
-static bool add_channels(multiplied *m, const io_image *probed, const char *name)
+static bool add_channels(multiplied *m, const io_image *probed, const char *name,
+                         const char *view)
 {
-    static const char letters[] = "RGB";
-    const size_t length = strlen(name);
-    bool room = true, found = false;
-    if (io_image_find(probed, name))
-        return add(m, name);
-    for (int c = 0; c < 3; c++)
-        for (int32_t i = 0; i < probed->channel_count; i++) {
-            const char *channel = probed->channels[i].name;
-            if (strncmp(channel, name, length) || channel[length] != '.'
-                || strncasecmp(channel + length + 1, &letters[c], 1)
-                || channel[length + 2] != '\0')
-                continue;
-            room = room && add(m, channel);
-            found = true;
-        }
+    bool room = true, found = false, is_colour;
+    for (int pass = 0; pass < 2 && !found; pass++)
+        for (int32_t i = 0; i < probed->channel_count; i++)
+            if (is_meant(&probed->channels[i], name, view, &is_colour)
+                && is_colour == (pass == 1)) {
+                room = room && add(m, probed->channels[i].name);
+                found = true;
+            }
     return found ? room : add(m, name);
 }
 
-static int find_multiplied(const ao_settings *s, const char *input, multiplied *m,
-                           report *r)
+static int find_multiplied(const ao_settings *s, const char *input, const char *view,
+                           multiplied *m, report *r)
 {
     io_image probed = {0};
     m->count = 0;
@@ -91,7 +103,7 @@ static int find_multiplied(const ao_settings *s, const char *input, multiplied *
         char name[IO_NAME_SIZE];
         at += *at == ',';
         snprintf(name, sizeof name, "%.*s", (int)strcspn(at, ","), at);
-        room = add_channels(m, &probed, name);
+        room = add_channels(m, &probed, name, view);
     }
     io_image_free(&probed);
     if (!room)
@@ -109,20 +121,30 @@ static io_append_options options_of(const ao_settings *s)
                                         (float)s->tint.value[2]}};
 }
 
-static io_addition addition_of(const ao_settings *s, const io_frame *frame,
-                               const multiplied *m)
+/* Fills an addition for each result. The caller frees *names. */
+static int make_additions(const ao_settings *s, const char *input,
+                          const ao_result *results, int32_t count,
+                          io_addition additions[MAX_VIEWS], multiplied **names, report *r)
 {
-    return (io_addition){.beside = frame->image.channels[0].name,
-                         .name = append_channel(s),
-                         .is_added = s->append,
-                         .multiplied_count = m->count,
-                         .multiplied = m->list};
+    multiplied *m = calloc((size_t)count, sizeof *m);
+    int result = m ? EXIT_DONE : report_no_memory(r);
+    for (int32_t i = 0; i < count && result == EXIT_DONE; i++) {
+        result = find_multiplied(s, input, count > 1 ? results[i].view : "", &m[i], r);
+        additions[i] = (io_addition){.beside = results[i].frame.image.channels[0].name,
+                                     .name = results[i].channel,
+                                     .is_added = s->append,
+                                     .multiplied_count = m[i].count,
+                                     .multiplied = m[i].list};
+    }
+    *names = m;
+    return result;
 }
 
-int append_check(const ao_settings *s, const char *input, const io_frame *frame,
-                 report *r)
+int append_check(const ao_settings *s, const char *input, const ao_result *results,
+                 int32_t count, report *r)
 {
-    multiplied m;
+    multiplied *names = NULL;
+    io_addition additions[MAX_VIEWS];
     if (!append_is_wanted(s))
         return EXIT_DONE;
     if (!io_keeps_windows(input)) {
@@ -132,26 +154,29 @@ int append_check(const ao_settings *s, const char *input, const io_frame *frame,
                      input);
         return EXIT_FAILED;
     }
-    const int result = find_multiplied(s, input, &m, r);
-    if (result != EXIT_DONE)
-        return result;
-    const io_addition addition = addition_of(s, frame, &m);
+    int result = make_additions(s, input, results, count, additions, &names, r);
     const io_append_options options = options_of(s);
     const crv_logger quiet = report_errors_only(r);
-    return io_append_check(input, &addition, 1, &options, &quiet) == 0 ? EXIT_DONE
-                                                                       : EXIT_FAILED;
+    if (result == EXIT_DONE
+        && io_append_check(input, additions, count, &options, &quiet) != 0)
+        result = EXIT_FAILED;
+    free(names);
+    return result;
 }
 
 int append_write(const ao_settings *s, const char *input, const char *output,
-                 const io_frame *frame, const io_image *ao, report *r)
+                 const ao_result *results, int32_t count, report *r)
 {
-    multiplied m;
-    const int result = find_multiplied(s, input, &m, r);
-    if (result != EXIT_DONE)
-        return result;
-    io_addition addition = addition_of(s, frame, &m);
+    multiplied *names = NULL;
+    io_addition additions[MAX_VIEWS];
+    int result = make_additions(s, input, results, count, additions, &names, r);
     const io_append_options options = options_of(s);
-    addition.picture = ao;
-    addition.made = ao->made;
-    return output_append(input, output, &addition, 1, &options, r);
+    for (int32_t i = 0; i < count && result == EXIT_DONE; i++) {
+        additions[i].picture = &results[i].ao;
+        additions[i].made = results[i].ao.made;
+    }
+    if (result == EXIT_DONE)
+        result = output_append(input, output, additions, count, &options, r);
+    free(names);
+    return result;
 }

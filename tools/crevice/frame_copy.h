@@ -15,14 +15,21 @@ const char *append_mistake(const ao_settings *s);
 /* The name of the channel, and of the attribute with what made it. */
 const char *append_channel(const ao_settings *s);
 
-/* Whether the frame can take the channel, and has those to multiply; before the work.
- * Returns an exit code. */
-int append_check(const ao_settings *s, const char *input, const io_frame *frame,
-                 report *r);
+/* The result of one view of a frame. */
+typedef struct ao_result {
+    const char *view;           /* "" without --views */
+    char channel[IO_NAME_SIZE]; /* the name of its channel in the copy */
+    io_frame frame;
+    io_image ao; /* its `made` says how it was made */
+} ao_result;
 
-/* Writes the copy with the result `ao`, whose `made` says how it was made. Returns an
- * exit code. */
+/* Whether the frame can take the channels, and has those to multiply; before the work is
+ * done. Returns an exit code. */
+int append_check(const ao_settings *s, const char *input, const ao_result *results,
+                 int32_t count, report *r);
+
+/* Writes the copy with the results. Returns an exit code. */
 int append_write(const ao_settings *s, const char *input, const char *output,
-                 const io_frame *frame, const io_image *ao, report *r);
+                 const ao_result *results, int32_t count, report *r);
 
 #endif

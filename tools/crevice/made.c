@@ -62,6 +62,8 @@ void made_describe(const ao_settings *s, const crv_options *o, float vfov_rad,
         append(made, " camera=%016" PRIx64 ",%d", cameras, (int)s->camera_order.value);
     append(made, " exact=%d half=%d bits=%d crop=%d", s->common.exact, s->half,
            s->bits.value == 0 ? 8 : 16, s->crop);
+    if (s->views)
+        append(made, " views=%s", s->views);
     if (s->receive)
         append(made, " receive=%s", s->receive);
     if (s->occlude)
@@ -117,12 +119,12 @@ bool made_matches(const char *settings, const char *made, made_state *state)
     return true;
 }
 
-void made_glance(const ao_settings *s, const char *output, char made[IO_MADE_SIZE])
+void made_glance(const char *output, const char *channel, char made[IO_MADE_SIZE])
 {
     io_image image = {0};
     made[0] = '\0';
-    if (append_is_wanted(s)) {
-        io_append_made(output, append_channel(s), made);
+    if (channel) {
+        io_append_made(output, channel, made);
         return;
     }
     if (io_probe(output, &image, NULL) == 0)
@@ -130,11 +132,11 @@ void made_glance(const ao_settings *s, const char *output, char made[IO_MADE_SIZ
     io_image_free(&image);
 }
 
-bool made_read(const ao_settings *s, const char *output, char made[IO_MADE_SIZE])
+bool made_read(const char *output, const char *channel, char made[IO_MADE_SIZE])
 {
     io_image image = {0};
-    made_glance(s, output, made);
-    if (append_is_wanted(s))
+    made_glance(output, channel, made);
+    if (channel)
         return made[0] != '\0';
     const bool whole = io_read(output, NULL, 0, &image, NULL) == 0;
     io_image_free(&image);

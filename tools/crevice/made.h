@@ -27,10 +27,11 @@ void made_add_state(char made[IO_MADE_SIZE], const made_state *state);
 /* Whether a result was made with these settings; then *state is that after its frame. */
 bool made_matches(const char *settings, const char *made, made_state *state);
 
-/* What made a result; false if it is not whole. */
-bool made_read(const ao_settings *s, const char *output, char made[IO_MADE_SIZE]);
+/* What made a result; false if it is not whole. channel: its name in a copy of the frame,
+ * NULL if it is a file of its own. */
+bool made_read(const char *output, const char *channel, char made[IO_MADE_SIZE]);
 
 /* The same without looking at the pixels; "" if it does not say. */
-void made_glance(const ao_settings *s, const char *output, char made[IO_MADE_SIZE]);
+void made_glance(const char *output, const char *channel, char made[IO_MADE_SIZE]);
 
 #endif

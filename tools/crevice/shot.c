@@ -12,10 +12,11 @@
 #include "common/output.h"
 #include "common/progress.h"
 #include "common/radius.h"
-#include "frame_copy.h"
 #include "frame_facts.h"
 #include "made.h"
 #include "masks.h"
+#include "results.h"
+#include "views.h"
 
 enum { PATH_SIZE = 4096, LOOKED_AT = 5 };
 
@@ -23,6 +24,8 @@ enum { PATH_SIZE = 4096, LOOKED_AT = 5 };
 typedef struct shot {
     const ao_settings *settings;
     const frame_list *list;
+    view_list views;
+    const char *view; /* at hand */
     io_passes_request request;
     camera_file cameras; /* of --camera */
     crv_options options;
@@ -38,15 +41,59 @@ typedef struct frame_paths {
     char input[PATH_SIZE], output[PATH_SIZE];
 } frame_paths;
 
-static int name_frame(const ao_settings *s, int32_t frame, frame_paths *paths, report *r)
+/* Fills the place of the view in a name, which is there or not. */
+static bool name_view(const shot *t, char path[PATH_SIZE])
 {
+    char pattern[PATH_SIZE];
+    memcpy(pattern, path, PATH_SIZE);
+    return views_name(pattern, t->view, path, PATH_SIZE);
+}
+
+static int name_frame(const shot *t, int32_t frame, frame_paths *paths, report *r)
+{
+    const ao_settings *s = t->settings;
     paths->has_number = true;
     paths->number = frame;
     if (frames_name(s->input, frame, paths->input, sizeof paths->input)
-        && frames_name(s->output, frame, paths->output, sizeof paths->output))
+        && frames_name(s->output, frame, paths->output, sizeof paths->output)
+        && name_view(t, paths->input) && name_view(t, paths->output))
         return EXIT_DONE;
     report_error(r, "--frames: the names of frame %d are too long", (int)frame);
     return EXIT_USAGE;
+}
+
+static int name_single(const shot *t, frame_paths *paths, report *r)
+{
+    const ao_settings *s = t->settings;
+    const bool fits = views_name(s->input, t->view, paths->input, sizeof paths->input);
+    if (fits && views_name(s->output, t->view, paths->output, sizeof paths->output)) {
+        paths->has_number = ao_camera_number(paths->input, &paths->number);
+        return EXIT_DONE;
+    }
+    report_error(r, "%s: the name is too long; shorten it", fits ? "-o" : "IN");
+    return EXIT_USAGE;
+}
+
+/* From here on the passes of this view are read. */
+static void use_view(shot *t, int32_t index)
+{
+    t->view = t->views.name[index];
+    t->request.views = t->settings->views;
+    t->request.view =
+        t->settings->views && !views_have_place(t->settings->input) ? t->view : NULL;
+}
+
+/* Whether all views of a frame share a file. */
+static bool views_are_together(const shot *t)
+{
+    return t->views.count > 1 && !views_have_place(t->settings->output);
+}
+
+/* The name of the view's channel. */
+static void name_channel(const shot *t, char channel[IO_NAME_SIZE])
+{
+    views_channel(append_channel(t->settings), views_are_together(t) ? t->view : "",
+                  channel);
 }
 
 /* What the frame of a result has left to those after it. */
@@ -65,11 +112,13 @@ static void take_up(shot *t, const made_state *state)
 static bool is_done(shot *t, const char *output, report *r)
 {
     struct stat info;
-    char made[IO_MADE_SIZE];
+    char made[IO_MADE_SIZE], channel[IO_NAME_SIZE];
     made_state state;
     if (stat(output, &info) != 0)
         return false;
-    const bool whole = made_read(t->settings, output, made);
+    name_channel(t, channel);
+    const bool whole =
+        made_read(output, append_is_wanted(t->settings) ? channel : NULL, made);
     const bool same =
         whole && made_matches(t->made, made, &state)
         && (!t->has_radius || !state.has_radius
@@ -89,15 +138,16 @@ static bool is_done(shot *t, const char *output, report *r)
 static int find_made_radius(shot *t, report *r)
 {
     frame_paths paths;
-    char made[IO_MADE_SIZE];
+    char made[IO_MADE_SIZE], channel[IO_NAME_SIZE];
     made_state state;
     if (!t->settings->skip_existing || !t->list)
         return EXIT_DONE;
     for (int32_t i = 0; i < frames_count(t->list) && !t->has_radius; i++) {
-        const int result = name_frame(t->settings, frames_at(t->list, i), &paths, r);
+        const int result = name_frame(t, frames_at(t->list, i), &paths, r);
         if (result != EXIT_DONE)
             return result;
-        made_glance(t->settings, paths.output, made);
+        name_channel(t, channel);
+        made_glance(paths.output, append_is_wanted(t->settings) ? channel : NULL, made);
         if (!made_matches(t->made, made, &state) || !state.has_radius)
             continue;
         t->options.radius = state.radius;
@@ -126,7 +176,7 @@ static void warn_of_part(const shot *t, report *r)
     const int32_t outside[] = {first - 1, last + 1};
     for (int i = 0; i < 2; i++) {
         struct stat info;
-        if (name_frame(t->settings, outside[i], &paths, r) == EXIT_DONE
+        if (name_frame(t, outside[i], &paths, r) == EXIT_DONE
             && stat(paths.input, &info) == 0) {
             report_warning(r,
                            "--radius: these frames choose their own, and %s is not of "
@@ -151,31 +201,6 @@ static int fix_radius(shot *t, const io_frame *frame, report *r)
     if (!t->settings->radius_frame.given)
         warn_of_part(t, r);
     return EXIT_DONE;
-}
-
-static int write_result(const shot *t, const char *input, const char *path,
-                        const io_frame *frame, io_image *ao, report *r)
-{
-    const io_write_options options = {.half = t->settings->half,
-                                      .bits = t->settings->bits.value == 0 ? 8 : 16};
-    /* The result lies where the frame does, without its guard band. */
-    ao->data_x = frame->image.data_x + frame->desc.guard_left;
-    ao->data_y = frame->image.data_y + frame->desc.guard_top;
-    ao->display_width = frame->image.display_width;
-    ao->display_height = frame->image.display_height;
-    ao->pixel_aspect = frame->image.pixel_aspect;
-    ao->camera = frame->image.camera;
-    /* Formats without windows get the whole picture. */
-    if (!io_keeps_windows(path) && facts_fill_display(ao, r) != EXIT_DONE)
-        return EXIT_FAILED;
-    snprintf(ao->made, sizeof ao->made, "%s", t->made);
-    made_add_state(ao->made, &(made_state){.has_radius = t->has_radius,
-                                           .radius = t->options.radius,
-                                           .reading = t->request.usual_reading,
-                                           .encoding = t->request.depth_format.encoding});
-    if (append_is_wanted(t->settings))
-        return append_write(t->settings, input, path, frame, ao, r);
-    return output_write(path, ao, &options, r);
 }
 
 /* What is known of a frame before it is read. */
@@ -219,7 +244,7 @@ static void ask_the_shot(shot *t, report *r)
         const int32_t number = spread_frame(t, i);
         io_frame frame = {0};
         io_passes_request request;
-        if (name_frame(t->settings, number, &paths, r) != EXIT_DONE
+        if (name_frame(t, number, &paths, r) != EXIT_DONE
             || request_frame(t, &paths, &request, NULL) != EXIT_DONE
             || io_frame_load(paths.input, &request, &frame, NULL) != 0)
             continue;
@@ -260,37 +285,86 @@ static int load_as_shot(shot *t, const frame_paths *paths, io_frame *frame, repo
     return masks_take_out(t->settings, paths->input, frame, r);
 }
 
-static int process(shot *t, const frame_paths *paths, report *r)
+/* The result of the view at hand. so_far: those of the frame that will be written with
+ * it, itself included. */
+static int compute(shot *t, const frame_paths *paths, ao_result *result, int32_t so_far,
+                   report *r)
 {
-    const char *input = paths->input, *output = paths->output;
-    io_frame frame = {0};
-    io_image ao = {0};
-    int result = output_check(output, input, r);
-    if (result == EXIT_DONE && t->settings->skip_existing && is_done(t, output, r))
-        return EXIT_DONE;
-    if (result == EXIT_DONE)
-        result = load_as_shot(t, paths, &frame, r);
-    if (result == EXIT_DONE)
-        result = append_check(t->settings, input, &frame, r);
-    if (result == EXIT_DONE)
-        facts_compare(&t->first, &frame, input, r);
-    if (result == EXIT_DONE)
-        result = upload(&t->estimator, &frame, r);
-    if (result == EXIT_DONE && !t->has_radius)
-        result = fix_radius(t, &frame, r);
-    if (result == EXIT_DONE)
-        result = estimate_plan(&t->estimator, &t->options, r);
-    if (result == EXIT_DONE)
-        result = estimate_run(&t->estimator, &ao, r);
-    if (result == EXIT_DONE)
-        result = facts_check_surface(&t->estimator, &ao, input, r);
-    if (result == EXIT_DONE)
-        result = masks_open(t->settings, input, &frame, &ao, r);
-    if (result == EXIT_DONE)
-        result = write_result(t, input, output, &frame, &ao, r);
-    io_image_free(&ao);
-    io_frame_free(&frame);
-    return result;
+    const char *input = paths->input;
+    result->view = t->view;
+    name_channel(t, result->channel);
+    int code = load_as_shot(t, paths, &result->frame, r);
+    if (code == EXIT_DONE)
+        code = append_check(t->settings, input, result + 1 - so_far, so_far, r);
+    if (code == EXIT_DONE)
+        facts_compare(&t->first, &result->frame, input, r);
+    if (code == EXIT_DONE)
+        code = upload(&t->estimator, &result->frame, r);
+    if (code == EXIT_DONE && !t->has_radius)
+        code = fix_radius(t, &result->frame, r);
+    if (code == EXIT_DONE)
+        code = estimate_plan(&t->estimator, &t->options, r);
+    if (code == EXIT_DONE)
+        code = estimate_run(&t->estimator, &result->ao, r);
+    if (code == EXIT_DONE)
+        code = facts_check_surface(&t->estimator, &result->ao, input, r);
+    if (code == EXIT_DONE)
+        code = masks_open(t->settings, input, &result->frame, &result->ao, r);
+    return code;
+}
+
+static int write_results(const shot *t, const frame_paths *paths, ao_result *results,
+                         report *r)
+{
+    const made_state state = {.has_radius = t->has_radius,
+                              .radius = t->options.radius,
+                              .reading = t->request.usual_reading,
+                              .encoding = t->request.depth_format.encoding};
+    const bool together = views_are_together(t);
+    int code = EXIT_DONE;
+    for (int32_t i = 0; i < (together ? 1 : t->views.count) && code == EXIT_DONE; i++)
+        code = results_write(t->settings, paths[i].input, paths[i].output, &results[i],
+                             together ? t->views.count : 1, t->made, &state, r);
+    return code;
+}
+
+/* Whether all files of a frame are there; NULL for the number: a single frame. */
+static int prepare(shot *t, const int32_t *number, frame_paths paths[MAX_VIEWS],
+                   bool *is_there, report *r)
+{
+    const ao_settings *s = t->settings;
+    *is_there = s->skip_existing;
+    for (int32_t i = 0; i < t->views.count; i++) {
+        use_view(t, i);
+        int code =
+            number ? name_frame(t, *number, &paths[i], r) : name_single(t, &paths[i], r);
+        if (code == EXIT_DONE)
+            code = output_check(paths[i].output, paths[i].input, r);
+        if (code != EXIT_DONE)
+            return code;
+        if (i == 0 || !views_are_together(t))
+            *is_there = *is_there && is_done(t, paths[i].output, r);
+    }
+    return EXIT_DONE;
+}
+
+static int process(shot *t, const int32_t *number, report *r)
+{
+    frame_paths paths[MAX_VIEWS];
+    ao_result results[MAX_VIEWS];
+    bool is_there;
+    int code = prepare(t, number, paths, &is_there, r);
+    if (code != EXIT_DONE || is_there)
+        return code;
+    memset(results, 0, sizeof results);
+    for (int32_t i = 0; i < t->views.count && code == EXIT_DONE; i++) {
+        use_view(t, i);
+        code = compute(t, &paths[i], &results[i], views_are_together(t) ? i + 1 : 1, r);
+    }
+    if (code == EXIT_DONE)
+        code = write_results(t, paths, results, r);
+    results_free(results, t->views.count);
+    return code;
 }
 
 /* --vfov fit: the first frame that decides it, for all. */
@@ -303,7 +377,7 @@ static int find_lens(shot *t, report *r)
     for (int32_t i = 0; i <= LOOKED_AT + 1 && result == EXIT_FAILED; i++) {
         /* In the end the first again, for its error line. */
         const bool speak = i == LOOKED_AT + 1;
-        result = name_frame(t->settings, spread_frame(t, speak ? 0 : i), &paths, r);
+        result = name_frame(t, spread_frame(t, speak ? 0 : i), &paths, r);
         if (result == EXIT_DONE)
             result = request_frame(t, &paths, &request, speak ? r : NULL);
         if (result == EXIT_DONE
@@ -328,7 +402,7 @@ static int find_radius(shot *t, report *r)
     io_frame frame = {0};
     if (!t->settings->radius_frame.given)
         return find_made_radius(t, r);
-    int result = name_frame(t->settings, t->settings->radius_frame.value, &paths, r);
+    int result = name_frame(t, t->settings->radius_frame.value, &paths, r);
     if (result == EXIT_DONE)
         result = load_as_shot(t, &paths, &frame, r);
     if (result == EXIT_DONE)
@@ -367,12 +441,10 @@ static int process_list(shot *t, report *r)
     int result = failed ? EXIT_DONE : report_no_memory(r);
     progress p = progress_begin(r, "frames", 0, total);
     for (int32_t i = 0; i < total && result != EXIT_USAGE && failed; i++) {
-        frame_paths paths;
-        result = name_frame(t->settings, frames_at(t->list, i), &paths, r);
-        if (result == EXIT_DONE)
-            result = process(t, &paths, r);
+        const int32_t number = frames_at(t->list, i);
+        result = process(t, &number, r);
         if (result == EXIT_FAILED) {
-            failed[count++] = frames_at(t->list, i);
+            failed[count++] = number;
             r->errors = 0; /* each failure has its line */
         }
         r->brief = true;
@@ -386,26 +458,12 @@ static int process_list(shot *t, report *r)
     return count ? EXIT_FAILED : result;
 }
 
-static int process_one(shot *t, report *r)
-{
-    const ao_settings *s = t->settings;
-    frame_paths paths = {0};
-    if (strlen(s->input) >= PATH_SIZE || strlen(s->output) >= PATH_SIZE) {
-        report_error(r, "%s: the name is too long; shorten it",
-                     strlen(s->input) >= PATH_SIZE ? "IN" : "-o");
-        return EXIT_USAGE;
-    }
-    memcpy(paths.input, s->input, strlen(s->input) + 1);
-    memcpy(paths.output, s->output, strlen(s->output) + 1);
-    paths.has_number = ao_camera_number(s->input, &paths.number);
-    return process(t, &paths, r);
-}
-
 int shot_run(const ao_settings *settings, const io_passes_request *request,
-             const frame_list *list, report *r)
+             const frame_list *list, const view_list *views, report *r)
 {
     shot t = {.settings = settings,
               .list = list,
+              .views = *views,
               .request = *request,
               .options = settings->common.options,
               .has_radius = settings->common.radius_given};
@@ -414,6 +472,7 @@ int shot_run(const ao_settings *settings, const io_passes_request *request,
                                   : EXIT_DONE;
     if (result != EXIT_DONE)
         return result;
+    use_view(&t, 0);
     if (t.request.fit_vfov && list)
         result = find_lens(&t, r);
     if (result != EXIT_DONE) {
@@ -425,7 +484,7 @@ int shot_run(const ao_settings *settings, const io_passes_request *request,
     if (result == EXIT_DONE)
         result = find_radius(&t, r);
     if (result == EXIT_DONE)
-        result = list ? process_list(&t, r) : process_one(&t, r);
+        result = list ? process_list(&t, r) : process(&t, NULL, r);
     estimate_close(&t.estimator);
     camera_file_free(&t.cameras);
     return result;

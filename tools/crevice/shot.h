@@ -6,6 +6,7 @@
 #include "ao_settings.h"
 #include "common/frames.h"
 #include "passes/passes.h"
+#include "views.h"
 
 /*
  * Computes the frames; list NULL: the input is one frame. A frame that fails is told and
@@ -13,6 +14,6 @@
  * reading of the normals) holds for all. Returns an exit code: EXIT_FAILED if any failed.
  */
 int shot_run(const ao_settings *settings, const io_passes_request *request,
-             const frame_list *list, report *r);
+             const frame_list *list, const view_list *views, report *r);
 
 #endif
