@@ -137,7 +137,8 @@ static inline bool crv__slice_at(const crv__frame *f, const crv__slice_site *sit
     s->jitter = crv__stratum(noise, k);
     const float offset = noise->sector_offset + 0.754878f * (float)k;
     s->sector_offset = offset - floorf(offset);
-    return s->total > 1e-7f;
+    /* Focal lengths whose squares are no floats have no direction in the image. */
+    return s->total > 1e-7f && length > 0 && length < INFINITY;
 }
 
 /* The texel of a sample, and the cell of the spacing that the sample stands for. */
