@@ -113,15 +113,17 @@ static void write_text(void)
 /* In all the ways of tools/common/camera_json.c and camera_chan.c. */
 static void write_cameras(void)
 {
-    static const char *const files[] = {
-        "a{\"eye\":[1,2,3],\"target\":[0,0,0],\"up\":[0,1,0],\"vfov\":40}",
+    static const char look_at[] =
+        "a{\"eye\":[1,2,3],\"target\":[0,0,0],\"up\":[0,1,0],\"vfov\":40}";
+    static const char matrices[] =
         "a[{\"frame\":1,\"camera_to_world\":[1,0,0,0,0,1,0,0,0,0,1,0,5,6,7,1],"
         "\"hfov\":50},{\"frame\":2,\"world_to_camera\":[[1,0,0,-5],[0,1,0,-6],"
-        "[0,0,1,-7],[0,0,0,1]],\"ortho\":3}]",
+        "[0,0,1,-7],[0,0,0,1]],\"ortho\":3}]";
+    static const char lens[] =
         "a{\"cameras\":[{\"frame\":1,\"eye\":[0,0,9],\"target\":[0,0,0],\"lens\":35,"
-        "\"sensor\":36}]}",
-        "b1 0 1 5 -10 20 0 45\n2 0 1 6 -11 21 0 45\n",
-    };
+        "\"sensor\":36}]}";
+    static const char angles[] = "b1 0 1 5 -10 20 0 45\n2 0 1 6 -11 21 0 45\n";
+    const char *const files[] = {look_at, matrices, lens, angles};
     for (int i = 0; i < 4; i++) {
         char name[32];
         snprintf(name, sizeof name, "cameras-%d", i);
