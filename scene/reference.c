@@ -14,6 +14,9 @@
  */
 #define OFFSET_SHARE 1e-6f
 
+/* From here on one pixel is worth handing to a thread. */
+enum { MANY_RAYS = 500 };
+
 static int refuse(const crv_logger *log, const char *text)
 {
     scene_log(log, CRV_LOG_ERROR, "reference", "%s", text);
@@ -223,7 +226,9 @@ void reference_advance(reference *r, int64_t pixels, int32_t threads)
     int64_t begin = r->done, left = reference_total(r) - begin;
     int64_t end = begin + (pixels < left ? pixels : left);
 #ifdef _OPENMP
-#pragma omp parallel for schedule(dynamic, 8) num_threads(scene_thread_count(threads))
+    const int32_t together = r->options.rays < MANY_RAYS ? 8 : 1;
+#pragma omp parallel for schedule(dynamic, together)                                     \
+    num_threads(scene_thread_count(threads))
 #else
     (void)threads;
 #endif

@@ -8,6 +8,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
 #include "common/interrupt.h"
 #include "common/progress.h"
 #include "io.h"
@@ -17,8 +21,9 @@
 
 /* A pixel takes a tenth of a second at most. A checkpoint is worth some waiting. Pixels
  * of the sky cost nothing and say nothing of the next ones, so that a batch is bounded by
- * the rays that it may need: about a quarter of a second. */
-enum { FIRST_BATCH = 4, BATCH_RAYS = 2000000, GRACE_S = 10 };
+ * the rays that it may need of each thread: a tenth of a second, and half a second on a
+ * machine that is slow or busy. */
+enum { FIRST_BATCH = 4, BATCH_RAYS = 500000, GRACE_S = 10 };
 
 int reference_run_check(reference_run *run, const char *output, bool resume, report *r)
 {
@@ -75,9 +80,20 @@ static void save(reference_run *run, report *r)
     run->is_saved = reference_save(run->work, run->checkpoint, &errors) == 0;
 }
 
+static int32_t thread_count(int32_t wanted)
+{
+#ifdef _OPENMP
+    return wanted > 0 ? wanted : omp_get_max_threads();
+#else
+    (void)wanted;
+    return 1;
+#endif
+}
+
 static void compute(reference_run *run, int32_t rays, int32_t threads, report *r)
 {
-    const int64_t most = BATCH_RAYS / rays > 1 ? BATCH_RAYS / rays : 1;
+    const int64_t share = BATCH_RAYS / rays > 1 ? BATCH_RAYS / rays : 1;
+    const int64_t most = share * thread_count(threads);
     progress p = progress_begin(r, "reference", reference_done(run->work),
                                 reference_total(run->work));
     double last_save = p.start;
