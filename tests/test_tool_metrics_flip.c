@@ -46,7 +46,7 @@ static double flip(const float *a, const float *b, int32_t width, int32_t height
 {
     double mean = -1.0;
 
-    assert_true(flip_compare(a, b, NULL, width, height, ppd, &mean));
+    assert_true(flip_compare(a, b, NULL, width, height, ppd, NULL, NULL, &mean));
     return mean;
 }
 
@@ -96,7 +96,8 @@ static void test_pattern(void **state)
     assert_near(flip(a, b, WIDTH, HEIGHT), 0.449102106181445, rounding);
     assert_near(flip(b, a, WIDTH, HEIGHT), 0.449102106181445, rounding);
     for (size_t i = 0; i < sizeof values / sizeof values[0]; i++) {
-        assert_true(flip_compare(a, b, NULL, WIDTH, HEIGHT, values[i][0], &mean));
+        assert_true(
+            flip_compare(a, b, NULL, WIDTH, HEIGHT, values[i][0], NULL, NULL, &mean));
         assert_near(mean, values[i][1], rounding);
     }
 }
@@ -146,11 +147,11 @@ static void test_mask(void **state)
         mask[i] = i != 0 && i != COUNT - 1 && !(i / WIDTH == 4 && i % WIDTH < 6);
     a[0] = NAN;
     b[4 * WIDTH + 2] = INFINITY;
-    assert_true(flip_compare(a, b, mask, WIDTH, HEIGHT, ppd, &mean));
+    assert_true(flip_compare(a, b, mask, WIDTH, HEIGHT, ppd, NULL, NULL, &mean));
     assert_near(mean, 0.449174576581287, rounding);
     for (int i = 0; i < COUNT; i++)
         mask[i] = 0;
-    assert_true(flip_compare(a, b, mask, WIDTH, HEIGHT, ppd, &mean));
+    assert_true(flip_compare(a, b, mask, WIDTH, HEIGHT, ppd, NULL, NULL, &mean));
     assert_true(isnan(mean));
 }
 

@@ -198,7 +198,7 @@ static double *lay_out(const evaluation *e, side *s, double *memory)
 }
 
 bool flip_compare(const float *a, const float *b, const uint8_t *mask, int32_t width,
-                  int32_t height, double ppd, double *mean)
+                  int32_t height, double ppd, flip_watch watch, void *user, double *mean)
 {
     evaluation e = {.width = width, .height = height};
     side first = {.values = a, .mask = mask}, second = {.values = b, .mask = mask};
@@ -221,6 +221,8 @@ bool flip_compare(const float *a, const float *b, const uint8_t *mask, int32_t w
             sum += pixel(&e, &first, &second, x);
             count++;
         }
+        if (watch)
+            watch(user, y + 1);
     }
     free(memory);
     *mean = count > 0 ? sum / (double)count : NAN;

@@ -17,14 +17,17 @@
  * makes 3840 pi / 180. */
 #define FLIP_PPD_TEXT "67.0206"
 
+/* Told of the rows that are done, after each. */
+typedef void (*flip_watch)(void *user, int32_t rows);
+
 /*
  * The mean over the compared pixels, 0 (equal) to 1; NAN without one. Values are grey
  * levels as a screen shows them (sRGB), and are clamped to [0, 1]. a, b, mask: as in
  * metrics.h; what is not compared counts as white in both pictures, since filters read
- * into it. ppd: pixels per degree of the visual field. Returns false where memory ran
- * out.
+ * into it. ppd: pixels per degree of the visual field. watch may be NULL. Returns false
+ * where memory ran out.
  */
 bool flip_compare(const float *a, const float *b, const uint8_t *mask, int32_t width,
-                  int32_t height, double ppd, double *mean);
+                  int32_t height, double ppd, flip_watch watch, void *user, double *mean);
 
 #endif

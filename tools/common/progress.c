@@ -27,6 +27,15 @@ static void describe_time(double seconds, char *out, size_t size)
         snprintf(out, size, "%ld s", whole);
 }
 
+void progress_announce(report *r, const char *name, double seconds)
+{
+    char time[64];
+    if (!(seconds > LONG_SECONDS))
+        return;
+    describe_time(seconds, time, sizeof time);
+    report_info(r, "%s: about %s", name, time);
+}
+
 progress progress_begin(report *r, const char *name, int64_t from, int64_t total)
 {
     return (progress){.r = r,

@@ -17,6 +17,10 @@ typedef struct progress {
 } progress;
 
 /* from: what was done before. */
+/* Tells of work that is about to begin if it will take more than ten seconds:
+ * "compare: about 21 s". */
+void progress_announce(report *r, const char *name, double seconds);
+
 progress progress_begin(report *r, const char *name, int64_t from, int64_t total);
 void progress_show(progress *p, int64_t done);
 void progress_end(progress *p);

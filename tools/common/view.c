@@ -4,6 +4,7 @@
 #include "camera_file.h"
 #include "exact.h"
 #include "nearest.h"
+#include "progress.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -13,10 +14,9 @@
 static const double degree = 3.14159265358979323846 / 180.0;
 
 /* In the order of crv_layers. */
-/* Pixels times layers from which on ray casting may take longer than LONG_SECONDS; the
+/* Pixels times layers from which on ray casting may take longer than ten seconds; the
  * trial has 1 / TRIAL_SHARE of each side. */
 #define MANY_SAMPLES 4e6
-#define LONG_SECONDS 10.0
 enum { TRIAL_SHARE = 12 };
 
 static const char *const layer_kinds[] = {"surfaces", "solid", NULL};
@@ -332,9 +332,8 @@ static void announce(const scene *model, const scene_gbuffer_request *request, r
     const double start = report_seconds();
     if (scene_render_gbuffer(model, &trial, &cast, &errors) == 0) {
         const double cast_pixels = (double)cast.desc.width * (double)cast.desc.height;
-        const double seconds = (report_seconds() - start) * pixels / cast_pixels;
-        if (seconds > LONG_SECONDS)
-            report_info(r, "G-buffer: about %.0f s", seconds);
+        progress_announce(r, "G-buffer",
+                          (report_seconds() - start) * pixels / cast_pixels);
     }
     scene_gbuffer_free(&cast);
 }

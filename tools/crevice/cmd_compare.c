@@ -10,6 +10,7 @@
 #include "io.h"
 #include "common/metrics.h"
 #include "common/metrics_print.h"
+#include "common/progress.h"
 
 typedef struct compare_settings {
     common_settings common;
@@ -175,13 +176,58 @@ static bool finite_values(const char *path, const picture *p, const uint8_t *mas
     return bad == 0;
 }
 
+/* Pixels from which on it may take longer than ten seconds, and the share of them that
+ * tells for how long. */
+enum { MANY_PIXELS = 1000000, TRIAL_SHARE = 32 };
+
+/* Signed errors and SSIM take about a quarter of the work, FLIP another. */
+enum { PART_METRICS = 1, PARTS = 4 };
+
+static void show_rows(void *user, int32_t rows)
+{
+    progress *p = user;
+    progress_show(p, PART_METRICS * p->total / PARTS + rows);
+}
+
+/* Rows from y on. p NULL: without a word. False: no memory. */
+static bool measure_rows(const compare_settings *s, const picture *a, const picture *b,
+                         const uint8_t *mask, int32_t y, int32_t rows, progress *p,
+                         metrics_findings *f)
+{
+    const int32_t width = a->image.width;
+    const size_t first = (size_t)y * (size_t)width;
+    const float *va = a->values + first, *vb = b->values + first;
+    mask += first;
+    return metrics_compare(va, vb, mask, width, rows, &f->m)
+           && flip_compare(va, vb, mask, width, rows, s->ppd.value, p ? show_rows : NULL,
+                           p, &f->flip)
+           && metrics_fit_curves(va, vb, mask, width, rows, &f->fit);
+}
+
+/* A strip in the middle tells how long the whole takes. */
+static void announce(const compare_settings *s, const picture *a, const picture *b,
+                     const uint8_t *mask, report *r)
+{
+    const int32_t height = a->image.height, rows = height / TRIAL_SHARE;
+    metrics_findings nobody = {0};
+    if ((int64_t)a->image.width * height < MANY_PIXELS || rows < 1)
+        return;
+    const double start = report_seconds();
+    if (measure_rows(s, a, b, mask, (height - rows) / 2, rows, NULL, &nobody))
+        progress_announce(r, "compare", (report_seconds() - start) * height / rows);
+}
+
 static int measure(const compare_settings *s, const picture *a, const picture *b,
                    const uint8_t *mask, metrics_findings *f, report *r)
 {
-    const int32_t width = a->image.width, height = a->image.height;
+    const int32_t height = a->image.height;
     if (!finite_values(s->a, a, mask, r) || !finite_values(s->b, b, mask, r))
         return EXIT_FAILED;
-    if (!metrics_compare(a->values, b->values, mask, width, height, &f->m))
+    announce(s, a, b, mask, r);
+    progress p = progress_begin(r, "compare", 0, (int64_t)PARTS * height);
+    const bool done = measure_rows(s, a, b, mask, 0, height, &p, f);
+    progress_end(&p);
+    if (!done)
         return report_no_memory(r);
     if (f->m.pixels == 0) {
         report_error(r,
@@ -190,9 +236,6 @@ static int measure(const compare_settings *s, const picture *a, const picture *b
                      s->a);
         return EXIT_FAILED;
     }
-    if (!flip_compare(a->values, b->values, mask, width, height, s->ppd.value, &f->flip)
-        || !metrics_fit_curves(a->values, b->values, mask, width, height, &f->fit))
-        return report_no_memory(r);
     return EXIT_DONE;
 }
 
