@@ -21,7 +21,10 @@ foreach(call pread pread64 pwrite pwrite64 fread fwrite fflush fsync fclose rena
     target_link_options(test_io_faults PRIVATE LINKER:--wrap=${call})
 endforeach()
 crevice_test(test_passes_names SOURCES test_passes_names.c LIBS crevice_io_support)
-crevice_test(test_passes_evidence SOURCES test_passes_evidence.c LIBS crevice_io_support)
+crevice_test(test_passes_evidence
+    SOURCES test_passes_evidence.c passes_scene.c LIBS crevice_io_support)
+crevice_test(test_passes_encodings
+    SOURCES test_passes_encodings.c passes_scene.c LIBS crevice_io_support)
 crevice_test(test_passes_lens SOURCES test_passes_lens.c LIBS crevice_io_support)
 crevice_test(test_passes_positions
     SOURCES test_passes_positions.c LIBS crevice_io_support)

@@ -9,8 +9,9 @@
 typedef struct io__depth_facts {
     size_t count; /* finite numbers */
     float smallest, largest;
-    size_t at_largest;  /* how many are exactly the largest */
-    float next_largest; /* the largest but those; -INFINITY if there is none */
+    size_t at_largest;      /* how many are exactly the largest */
+    size_t at_smallest;     /* the smallest */
+    size_t near_by, behind; /* how many others are at least a 1.5th, an 8th of it */
     bool
         bare_at_largest; /* pixels at the largest have no normal, and there are normals */
     bool is_half;        /* all have the bits of half floats */

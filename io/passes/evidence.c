@@ -51,7 +51,7 @@ static void tell_contradiction(const io__court *c, const io__trial *first,
 }
 
 static int look_further(const io__court *c, const io__camera_guess *cameras, int count,
-                        io__trial *t)
+                        io__trial *t, bool *encoding_told)
 {
     io__trial better = {0};
     bool found = false;
@@ -60,6 +60,7 @@ static int look_further(const io__court *c, const io__camera_guess *cameras, int
         return -1;
     const bool taken = found && is_taken(c, &better, t);
     tell_contradiction(c, t, &better, found, taken);
+    *encoding_told = found && better.format.encoding != t->format.encoding;
     if (taken)
         *t = better;
     return 0;
@@ -172,6 +173,7 @@ static bool tell_of_zoom(const io__court *c, const io__trial *t)
 static int judge(const io__court *c, const crv_depth_format *format,
                  const io__camera_guess *cameras, int count, io__verdict *out)
 {
+    out->encoding_told = false;
     io__trial t = {.camera = cameras[0].camera, .guess = &cameras[0], .format = *format};
     if (cameras[0].needs_lens ? io__fit_focal_length(c, &t) : io__try(c, &t))
         return -1;
@@ -188,7 +190,8 @@ static int judge(const io__court *c, const crv_depth_format *format,
                                  ? t.reading.id && t.reading.deviation > IO__DOUBTFUL
                                  : t.bend > 0.05;
     /* A shot's later frames are as its first. */
-    if (is_doubtful && !c->request->is_later && look_further(c, cameras, count, &t))
+    if (is_doubtful && !c->request->is_later
+        && look_further(c, cameras, count, &t, &out->encoding_told))
         return -1;
     out->zooms = c->request->is_later && is_doubtful && tell_of_zoom(c, &t);
     settle_reading(c, &t);

@@ -14,6 +14,7 @@
 typedef struct io__verdict {
     io__camera_guess camera;
     crv_depth_format format;
+    bool encoding_told;  /* a warning named another one */
     bool zooms;          /* as io_frame.zooms */
     io__reading reading; /* id 0: no normals, or none that can be believed */
 } io__verdict;

@@ -13,6 +13,7 @@
 #include "names.h"
 #include "normals.h"
 #include "positions.h"
+#include "trial.h"
 #include "views.h"
 
 /* Blender writes this if a ray met nothing; no renderer writes more for a surface. */
@@ -202,30 +203,10 @@ static void smooth_halves(const char *path, const io_passes_request *request,
         "them is lost; write it in 32-bit floats");
 }
 
-/* Directions do not tell how far the planes are, nor can smoothness tell much. */
-static void tell_of_unit_range(const char *path, const io_passes_request *request,
-                               const io__depth_facts *facts, bool has_normals,
-                               const crv_logger *log)
-{
-    const bool ends_at_1 = facts->largest == 1.0f && facts->at_largest < facts->count;
-    const bool begins_at_0 =
-        facts->smallest == 0.0f && facts->largest < 1.0f && !has_normals;
-    if (request->encoding_given || request->is_later
-        || !is_distance(request->depth_format.encoding) || facts->smallest < -1.0f
-        || !(ends_at_1 || begins_at_0))
-        return;
-    io__warn(log, path,
-             "depth lies between %g and %g: it looks normalised, or like a depth buffer, "
-             "but is read as distances; %s",
-             (double)facts->smallest, (double)facts->largest,
-             request->remedies.encoding ? request->remedies.encoding
-                                        : "say what its numbers mean");
-}
-
 /* The format that depth is read in, with the background that its numbers tell. */
 static crv_depth_format settle_format(const char *path, const io_passes_request *request,
                                       io_frame *frame, bool has_normals,
-                                      const crv_logger *log)
+                                      io__depth_facts *settled, const crv_logger *log)
 {
     crv_depth_format format = request->depth_format;
     const crv_image *normals = has_normals ? &frame->normals : NULL;
@@ -242,7 +223,7 @@ static crv_depth_format settle_format(const char *path, const io_passes_request 
         negate_depth(path, frame, log);
         facts = io__depth_facts_of(&frame->depth[0], normals, limit);
     }
-    tell_of_unit_range(path, request, &facts, has_normals, log);
+    *settled = facts;
     if (facts.is_half && is_distance(format.encoding))
         smooth_halves(path, request, frame, log);
     if (find_background && io__largest_is_sky(&facts)) {
@@ -279,11 +260,35 @@ static int settle_cameras(const char *path, const io_passes_request *request,
     return 1;
 }
 
+/* Directions do not tell how far the planes are, nor can smoothness tell much. */
+static void tell_of_unit_range(const char *path, const io_passes_request *request,
+                               const io__depth_facts *facts, bool has_normals,
+                               const io__verdict *verdict, const crv_logger *log)
+{
+    const bool fits =
+        has_normals && verdict->reading.id && verdict->reading.deviation < IO__DOUBTFUL;
+    const bool ends_at_1 = facts->largest == 1.0f && facts->at_largest < facts->count;
+    const bool begins_at_0 =
+        facts->smallest == 0.0f && facts->largest < 1.0f && !has_normals;
+    if (verdict->encoding_told || request->encoding_given || request->is_later
+        || !is_distance(request->depth_format.encoding) || facts->smallest < -1.0f
+        || !(ends_at_1 || begins_at_0))
+        return;
+    io__warn(log, path, "depth lies between %g and %g%s but is read as distances; %s",
+             (double)facts->smallest, (double)facts->largest,
+             fits ? ", and its normals agree: it is normalised, 0 near the eye and 1 at "
+                    "far,"
+                  : ": it looks normalised, or like a depth buffer,",
+             request->remedies.encoding ? request->remedies.encoding
+                                        : "say what its numbers mean");
+}
+
 static int settle(const char *path, const io_passes_request *request,
                   const io__pass_names *names, io_frame *frame, const crv_logger *log)
 {
     io__camera_guess cameras[IO__MAX_CAMERAS];
     io__verdict verdict;
+    io__depth_facts facts;
     const bool given_normals = names->normal[0];
     const int count = settle_cameras(path, request, names, frame, cameras, log);
     if (count < 0)
@@ -295,10 +300,11 @@ static int settle(const char *path, const io_passes_request *request,
         io__decode_normals(path, request, frame, log);
     }
     const crv_depth_format format =
-        settle_format(path, request, frame, given_normals, log);
+        settle_format(path, request, frame, given_normals, &facts, log);
     if (io__judge(path, request, &format, cameras, count, given_normals, frame, &verdict,
                   log))
         return -1;
+    tell_of_unit_range(path, request, &facts, given_normals, &verdict, log);
     frame->camera = verdict.camera.camera;
     frame->deviation = verdict.reading.deviation;
     frame->zooms = verdict.zooms;

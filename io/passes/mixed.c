@@ -18,6 +18,10 @@ static const double shortest = 0.99;
 /* Of the gap between two surfaces: what still counts as lying on one of them. */
 static const float near_share = 0.12f;
 
+/* Of the value: what three pixels of a straight surface bend at most, and what two
+ * surfaces are apart at least. */
+static const float straight_share = 0.01f, gap_share = 0.1f;
+
 enum { FARTHEST = 3 }; /* pixels to the next that is not mixed */
 
 typedef struct plane {
@@ -86,21 +90,52 @@ static bool is_between(const plane *p, int32_t x, int32_t y)
            && (edge_at(p, x, y, 0) == BETWEEN || edge_at(p, x, y, 2) == BETWEEN);
 }
 
-/* A filter leaves pixels in between at most silhouettes; without one a few are there by
- * chance, as thin surfaces and outlines of round ones. */
+/* The line through the three pixels of a side, if they lie on one; else NAN. */
+static float straight_side(const plane *p, int32_t x, int32_t y, int k, float *slope)
+{
+    float v[3];
+    for (int i = 0; i < 3; i++) {
+        const ptrdiff_t at = beside(p, x, y, k, i + 1);
+        v[i] = at < 0 ? NAN : p->value[at];
+    }
+    *slope = v[0] - v[1];
+    const float bend = fabsf(v[0] - 2.0f * v[1] + v[2]);
+    return bend < straight_share * fabsf(v[0]) ? v[0] + *slope : NAN;
+}
+
+/* Where two straight surfaces meet at a pixel, one before the other: whether the pixel
+ * lies on one of them, or is mixed. */
+static int silhouette_at(const plane *p, int32_t x, int32_t y, int k)
+{
+    const float here = p->value[(ptrdiff_t)y * p->width + x];
+    float slope_a, slope_b;
+    const float a = straight_side(p, x, y, k, &slope_a);
+    const float b = straight_side(p, x, y, k + 1, &slope_b);
+    const float gap = fabsf(a - b);
+    /* Slopes are no gaps: neither line goes on to the other side. */
+    if (!(gap > gap_share * fabsf(here)) || fabsf(a + slope_a - b + slope_b) < 0.5f * gap
+        || fabsf(b + slope_b - a + slope_a) < 0.5f * gap)
+        return NO_EDGE;
+    const float share = (here - a) / (b - a);
+    if (fabsf(share) < 0.1f || fabsf(share - 1.0f) < 0.1f)
+        return EDGE;
+    return share > 0.0f && share < 1.0f ? BETWEEN : NO_EDGE;
+}
+
+/* A filter leaves a pixel in between at most silhouettes: eight in ten, were all of them
+ * straight. Without one a few are there by chance, as thin surfaces. A silhouette without
+ * one counts twice, from both of its sides. */
 static bool is_filtered(const plane *p)
 {
-    int64_t edges = 0, between = 0;
+    int64_t sharp = 0, mixed = 0;
     for (int32_t y = 0; y < p->height; y++)
         for (int32_t x = 0; x < p->width; x++)
             for (int k = 0; k < 4; k += 2) {
-                if (!isfinite(p->value[(ptrdiff_t)y * p->width + x]))
-                    continue;
-                const int what = edge_at(p, x, y, k);
-                edges += what != NO_EDGE;
-                between += what == BETWEEN;
+                const int what = silhouette_at(p, x, y, k);
+                sharp += what == EDGE;
+                mixed += what == BETWEEN;
             }
-    return edges > 0 && 8 * between > edges;
+    return mixed >= 8 && 2 * mixed > sharp;
 }
 
 /* The side that the pixel lies nearest to, not mixed itself. */
@@ -176,9 +211,11 @@ int64_t io__settle_mixed(io_frame *frame)
     int64_t changed = p.value && p.averaged ? 0 : -1;
     if (!changed)
         fill(frame, has_normals, &p);
-    /* Normals tell by their length; without them depth must. */
-    unsigned char *marks = has_normals ? NULL : malloc(count);
-    if (!changed && marks && is_filtered(&p))
+    /* Normals tell by their length; without them, or if depth alone was filtered, depth
+     * must. */
+    unsigned char *marks =
+        !changed && !memchr(p.averaged, 1, count) ? malloc(count) : NULL;
+    if (marks && is_filtered(&p))
         mark_between(&p, marks);
     free(marks);
     for (int32_t y = 0; changed >= 0 && y < p.height; y++)
