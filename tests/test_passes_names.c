@@ -183,24 +183,30 @@ static void test_choice_by_name(void **state)
     support_expect_error(path, "has no channel \"C.Depth.Z\"");
 }
 
-static void test_layers(void **state)
+/* A pixel of four channels, of which the first three are layers of this kind. */
+static void layers_are(const char *file, const char *const names[4], crv_layers kind)
 {
-    (void)state;
-    static const char *const names[] = {"Z", "layer2.Z", "layer3.Z", "AO"};
-    const float values[4][1] = {{1}, {2}, {3}, {0}};
+    const float values[4][1] = {{1}, {2}, {3}, {4}};
     const float *planes[] = {values[0], values[1], values[2], values[3]};
-    const char *path = support_path("layers.exr");
+    const char *path = support_path(file);
     const io_passes_request request = default_request();
     io_frame frame;
     support_make_plain_exr(path, names, 4, 1, 1, planes);
     support_forget();
     load(path, &request, &frame);
     assert_int_equal(frame.desc.layers, 3);
-    assert_int_equal(frame.desc.layer_kind, CRV_LAYERS_SURFACES);
+    assert_int_equal(frame.desc.layer_kind, kind);
     for (int i = 0; i < 3; i++)
         assert_true(*crv_image_at(&frame.depth[i], 0, 0, 0) == (float)(i + 1));
     assert_int_equal(support_lines.warnings + support_lines.errors, 0);
     io_frame_free(&frame);
+}
+
+static void test_layers(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"Z", "layer2.Z", "layer3.Z", "AO"};
+    layers_are("layers.exr", names, CRV_LAYERS_SURFACES);
 }
 
 /* The kind is in the names; layers of the other kind are left alone. */
@@ -208,21 +214,8 @@ static void test_layers_of_solids(void **state)
 {
     (void)state;
     static const char *const names[] = {"Z", "solid2.Z", "solid3.Z", "layer4.Z"};
-    const float values[4][1] = {{1}, {2}, {3}, {4}};
-    const float *planes[] = {values[0], values[1], values[2], values[3]};
-    const char *path = support_path("solids.exr");
-    const io_passes_request request = default_request();
-    io_frame frame;
-    support_make_plain_exr(path, names, 4, 1, 1, planes);
-    support_forget();
-    load(path, &request, &frame);
-    assert_int_equal(frame.desc.layers, 3);
-    assert_int_equal(frame.desc.layer_kind, CRV_LAYERS_SOLID);
-    for (int i = 0; i < 3; i++)
-        assert_true(*crv_image_at(&frame.depth[i], 0, 0, 0) == (float)(i + 1));
+    layers_are("solids.exr", names, CRV_LAYERS_SOLID);
     assert_non_null(strstr(support_lines.text, "3 layers of solids"));
-    assert_int_equal(support_lines.warnings + support_lines.errors, 0);
-    io_frame_free(&frame);
 }
 
 int main(void)

@@ -145,31 +145,14 @@ CRV__INLINE vf blocked_share(const crv__group_pixels *at, const crv__list *list,
     return occlusion * vf_set(1.0f / SECTORS);
 }
 
-CRV__INLINE vf sum_of_slices(const crv__group_pixels *at, const crv__list *list, shape c)
-{
-    const crv__slice_view w = crv__slice_view_of(at, c.orthographic);
-    const vf one = vf_set(1);
-    vf blocked = vf_zero(), total = vf_zero();
-    for (int32_t k = 0; k < at->di->slices; k++) {
-        const crv__group_slice s = crv__group_slice_at(at, &w, k);
-        blocked = vf_fma(s.weight, blocked_share(at, list, &w, &s, c, k), blocked);
-        total = total + s.weight;
-    }
-    return vf_select(vf_lt(vf_zero(), total), one - blocked / total, one);
-}
+CRV__SLICES_SUMMED
 
-#define SHAPE(name, ...)                                                                 \
-    CRV__NOINLINE vf name(const crv__group_pixels *at, const crv__list *list)            \
-    {                                                                                    \
-        return sum_of_slices(at, list, (shape){__VA_ARGS__});                            \
-    }
-
-SHAPE(hard, .rule = CRV_THICKNESS_WIDTH, .hard = true)
-SHAPE(hard_border, .rule = CRV_THICKNESS_WIDTH, .hard = true, .border = true)
-SHAPE(soft, .rule = CRV_THICKNESS_WIDTH)
-SHAPE(soft_border, .rule = CRV_THICKNESS_WIDTH, .border = true)
-SHAPE(hard_run, .rule = CRV_THICKNESS_RUN, .hard = true)
-SHAPE(hard_run_border, .rule = CRV_THICKNESS_RUN, .hard = true, .border = true)
+CRV__SLICE_SHAPE(hard, .rule = CRV_THICKNESS_WIDTH, .hard = true)
+CRV__SLICE_SHAPE(hard_border, .rule = CRV_THICKNESS_WIDTH, .hard = true, .border = true)
+CRV__SLICE_SHAPE(soft, .rule = CRV_THICKNESS_WIDTH)
+CRV__SLICE_SHAPE(soft_border, .rule = CRV_THICKNESS_WIDTH, .border = true)
+CRV__SLICE_SHAPE(hard_run, .rule = CRV_THICKNESS_RUN, .hard = true)
+CRV__SLICE_SHAPE(hard_run_border, .rule = CRV_THICKNESS_RUN, .hard = true, .border = true)
 
 /* Everything else. */
 CRV__NOINLINE vf general(const crv__group_pixels *at, const crv__list *list)

@@ -66,29 +66,12 @@ CRV__INLINE vf blocked_share(const crv__group_pixels *at, const crv__list *list,
                                                           : (one - h.open) * h.weight;
 }
 
-CRV__INLINE vf sum_of_slices(const crv__group_pixels *at, const crv__list *list, shape c)
-{
-    const crv__slice_view w = crv__slice_view_of(at, c.orthographic);
-    const vf one = vf_set(1);
-    vf blocked = vf_zero(), total = vf_zero();
-    for (int32_t k = 0; k < at->di->slices; k++) {
-        const crv__group_slice s = crv__group_slice_at(at, &w, k);
-        blocked = vf_fma(s.weight, blocked_share(at, list, &w, &s, c, k), blocked);
-        total = total + s.weight;
-    }
-    return vf_select(vf_lt(vf_zero(), total), one - blocked / total, one);
-}
+CRV__SLICES_SUMMED
 
-#define SHAPE(name, ...)                                                                 \
-    CRV__NOINLINE vf name(const crv__group_pixels *at, const crv__list *list)            \
-    {                                                                                    \
-        return sum_of_slices(at, list, (shape){__VA_ARGS__});                            \
-    }
-
-SHAPE(hard, .layers = 1, .hard = true)
-SHAPE(hard_border, .layers = 1, .hard = true, .border = true)
-SHAPE(soft, .layers = 1)
-SHAPE(soft_border, .layers = 1, .border = true)
+CRV__SLICE_SHAPE(hard, .layers = 1, .hard = true)
+CRV__SLICE_SHAPE(hard_border, .layers = 1, .hard = true, .border = true)
+CRV__SLICE_SHAPE(soft, .layers = 1)
+CRV__SLICE_SHAPE(soft_border, .layers = 1, .border = true)
 
 /* Everything else. */
 CRV__NOINLINE vf general(const crv__group_pixels *at, const crv__list *list)

@@ -129,4 +129,28 @@ CRV__INLINE vf crv__group_slice_depth(const crv__group_pixels *at,
     return vf_select(off, vf_min(crv__lanes_beyond(at->frame, u, v, off), background), d);
 }
 
+/* sum_of_slices(): accessibility from a group's slices, by the template's `shape` and
+ * blocked_share(). CRV__SLICE_SHAPE: it for one shape, compiled by itself. */
+#define CRV__SLICES_SUMMED                                                               \
+    CRV__INLINE vf sum_of_slices(const crv__group_pixels *at, const crv__list *list,     \
+                                 shape c)                                                \
+    {                                                                                    \
+        const crv__slice_view w = crv__slice_view_of(at, c.orthographic);                \
+        const vf one = vf_set(1);                                                        \
+        vf blocked = vf_zero(), total = vf_zero();                                       \
+        for (int32_t k = 0; k < at->di->slices; k++) {                                   \
+            const crv__group_slice s = crv__group_slice_at(at, &w, k);                   \
+            const vf share = blocked_share(at, list, &w, &s, c, k);                      \
+            blocked = vf_fma(s.weight, share, blocked);                                  \
+            total = total + s.weight;                                                    \
+        }                                                                                \
+        return vf_select(vf_lt(vf_zero(), total), one - blocked / total, one);           \
+    }
+
+#define CRV__SLICE_SHAPE(name, ...)                                                      \
+    CRV__NOINLINE vf name(const crv__group_pixels *at, const crv__list *list)            \
+    {                                                                                    \
+        return sum_of_slices(at, list, (shape){__VA_ARGS__});                            \
+    }
+
 #endif
