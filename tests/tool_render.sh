@@ -38,6 +38,19 @@ good render builtin:courtyard $small -o again.exr $camera $radius
 good compare --json told.exr again.exr
 at_most "$(number max_error)" 0 "difference of the told camera"
 
+# Options in a file are those of the command line, which wins over them.
+printf '# a look\nmethod=gtao radius=0.3\nfalloff=none\n\nfilter=none\r\npreset=low\n' >look.txt
+good render builtin:courtyard $small -o file.exr --options look.txt --radius 0.2
+good render builtin:courtyard $small -o flags.exr --method gtao --preset low --radius 0.2 \
+    --falloff none --filter none
+good compare --json file.exr flags.exr
+at_most "$(number max_error)" 0 "difference of options in a file"
+echo 'radius 0.3' >out_bad.txt && mv out_bad.txt bad.txt
+bad 2 'bad.txt: "radius" is not key=value' render builtin:plane -o out.png --options bad.txt
+echo radios=0.3 >bad.txt
+bad 2 'did you mean .radius.' render builtin:plane -o out.png --options bad.txt
+bad 1 'no.txt: No such file' render builtin:plane -o out.png --options no.txt
+
 # Two perpendicular planes: open far from the edge, about half closed in it.
 good render builtin:corner $small -o corner.exr --radius 0.5
 good render builtin:plane $small -o plane.exr --radius 0.5

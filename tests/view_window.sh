@@ -110,6 +110,13 @@ for channel in R G B; do
     same shown_difference.png difference.png $channel 0.00393
 done
 
+# The options that the window copies are those that it shows.
+grep -A20 '^method=' said.txt | grep = >options.txt
+good render builtin:courtyard --size 64x36 -o a.exr --options options.txt
+good render builtin:courtyard --size 64x36 -o b.exr --method vao --radius 0.43
+good compare --json a.exr b.exr
+at_most "$(number max_error)" 0 "difference of copied options"
+
 # A frame: the same bits as `crevice ao`.
 good gbuffer builtin:courtyard --size 640x400 -o frame.exr -q
 act frame.exr <<'END'

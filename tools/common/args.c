@@ -2,6 +2,7 @@
 #include "args.h"
 
 #include "nearest.h"
+#include "options_file.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -35,7 +36,8 @@ enum { FLAGS_MAX = 128 };
 static bool is_library_option(const char *key)
 {
     return strcmp(key, "method") == 0 || strcmp(key, "preset") == 0
-           || strcmp(key, "filter") == 0 || crv_option_find(key);
+           || strcmp(key, "options") == 0 || strcmp(key, "filter") == 0
+           || crv_option_find(key);
 }
 
 /* The row of this flag ("--size" or "-o"), its first `length` bytes counting. */
@@ -69,9 +71,9 @@ static const arg *find_positional(const command *c, size_t index)
 /* Names are compared without their dashes, so that these don't count as letters met. */
 static int unknown_flag(const command *c, const char *flag, report *r)
 {
-    const char *names[FLAGS_MAX] = {"method", "preset", "filter"};
+    const char *names[FLAGS_MAX] = {"method", "preset", "filter", "options"};
     char keys[FLAGS_MAX][64];
-    int32_t count = c->library_options ? 3 : 0;
+    int32_t count = c->library_options ? 4 : 0;
     for (size_t t = 0; c->tables[t]; t++)
         for (size_t i = 0; i < c->tables[t]->count && count < FLAGS_MAX; i++)
             if (c->tables[t]->rows[i].name[0] == '-')
@@ -160,10 +162,13 @@ const crv_method *args_method(const command *c, int argc, char **argv)
 }
 
 /* A method brings its own defaults, so it comes before all other options. */
-static int set_method(const command *c, int argc, char **argv, common_settings *common,
-                      report *r)
+static int set_method(const command *c, int argc, char **argv, const options_file *file,
+                      common_settings *common, report *r)
 {
-    const char *name = method_name(c, argc, argv);
+    const char *flag = last_value("--method", argc, argv);
+    const char *name = flag ? flag : options_file_find(file, "method");
+    if (!name)
+        name = method_name(c, argc, argv);
     if (!report_ok(r, crv_options_init(&common->options, sizeof common->options, NULL),
                    "options"))
         return EXIT_USAGE;
@@ -178,9 +183,11 @@ static int set_method(const command *c, int argc, char **argv, common_settings *
 }
 
 /* A preset is the method's, so it comes after that; single options change it. */
-static int set_preset(int argc, char **argv, common_settings *common, report *r)
+static int set_preset(int argc, char **argv, const options_file *file,
+                      common_settings *common, report *r)
 {
-    const char *name = last_value("--preset", argc, argv);
+    const char *flag = last_value("--preset", argc, argv);
+    const char *name = flag ? flag : options_file_find(file, "preset");
     const char *names[CRV_PRESET_COUNT];
     for (int i = 0; name && i < CRV_PRESET_COUNT; i++) {
         names[i] = crv_preset_name((crv_preset)i);
@@ -206,8 +213,9 @@ static int set_library_option(const char *flag, size_t length, const char *text,
     char key[64];
     memcpy(key, flag + 2, length - 2);
     key[length - 2] = '\0';
-    if (strcmp(key, "method") == 0 || strcmp(key, "preset") == 0)
-        return EXIT_DONE; /* set_method() and set_preset() have seen to it */
+    if (strcmp(key, "method") == 0 || strcmp(key, "preset") == 0
+        || strcmp(key, "options") == 0)
+        return EXIT_DONE; /* set_library() has seen to it */
     const crv_option *option = crv_option_find(key);
     if (strcmp(key, "radius") == 0)
         common->radius_given = true;
@@ -308,6 +316,25 @@ static int check_required(const command *c, const void *settings, report *r)
     return EXIT_DONE;
 }
 
+/* What comes before single options: method, preset, and the file of --options, which
+ * options of the command line change. */
+static int set_library(const command *c, int argc, char **argv, common_settings *common,
+                       report *r)
+{
+    options_file file;
+    int result = options_file_read(last_value("--options", argc, argv), &file, r);
+    if (result == EXIT_DONE)
+        result = set_method(c, argc, argv, &file, common, r);
+    if (result == EXIT_DONE)
+        result = set_preset(argc, argv, &file, common, r);
+    if (result == EXIT_DONE)
+        result = options_file_apply(&file, &common->options, r);
+    if (options_file_find(&file, "radius"))
+        common->radius_given = true;
+    options_file_free(&file);
+    return result;
+}
+
 int args_parse(const command *c, int argc, char **argv, void *settings, report *r)
 {
     common_settings *common = settings;
@@ -316,9 +343,7 @@ int args_parse(const command *c, int argc, char **argv, void *settings, report *
     int result = EXIT_DONE;
     set_defaults(c, settings);
     if (c->library_options)
-        result = set_method(c, argc, argv, common, r);
-    if (c->library_options && result == EXIT_DONE)
-        result = set_preset(argc, argv, common, r);
+        result = set_library(c, argc, argv, common, r);
     for (int i = 0; i < argc && result == EXIT_DONE; i++) {
         if (!options_end && strcmp(argv[i], "--") == 0)
             options_end = true;

@@ -107,6 +107,8 @@ static void each_item(FILE *out, const command *c,
     item method = {.flag = "--method", .takes_value = true, .help = "how to estimate"};
     item preset = {.flag = "--preset", .takes_value = true, .help = "what to spend"};
     item filter = {.flag = "--filter", .takes_value = true, .help = "how to smooth"};
+    const item file = {
+        .flag = "--options", .takes_value = true, .help = "file of options"};
     add_methods(&method.v);
     add_presets(&preset.v);
     add(&filter.v, "none");
@@ -114,6 +116,7 @@ static void each_item(FILE *out, const command *c,
     write(out, c, &method);
     write(out, c, &preset);
     write(out, c, &filter);
+    write(out, c, &file);
     for (int32_t i = 0; i < crv_option_count(); i++) {
         const crv_option *option = crv_option_at(i);
         char flag[80];

@@ -188,6 +188,9 @@ static void write_library_options(FILE *out, const help_style *style, const comm
         used += (size_t)snprintf(text + used, sizeof text - used, "|%s",
                                  crv_filter_at(i)->name);
     style->entry(out, "--filter NAME", text);
+    style->entry(out, "--options FILE",
+                 "read key=value lines, as `crevice view` copies them (method, preset, "
+                 "filter and all options); what the command line says wins");
     for (int32_t i = 0; i < crv_option_count(); i++)
         write_option(out, style, crv_option_at(i), method);
 }

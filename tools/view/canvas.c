@@ -91,15 +91,40 @@ static void draw_text(const app *a, cairo_t *c, const char *text, double x, doub
     g_object_unref(layout);
 }
 
-static char *name_of(const app *a, int half)
+/* What a half's accessibility comes from; the caller frees it. */
+static char *content_of(const app *a, int half)
 {
     const half_wish *h = &a->shown.wish.half[half];
-    const char *content = h->content == HALF_METHOD  ? h->options.method->name
-                          : h->content == HALF_TRUTH ? "ray-traced truth"
-                                                     : "no occlusion";
-    if (h->look == LOOK_DIFFERENCE)
-        return g_strdup("left minus right");
-    return g_strdup_printf("%s%s", content, h->look == LOOK_LIT ? ", lit" : "");
+    const half_shown *s = &a->shown.half[half];
+    if (h->content == HALF_OPEN)
+        return g_strdup("no occlusion");
+    if (h->content == HALF_METHOD)
+        return g_strdup(h->options.method->name);
+    if (!s->has_truth)
+        return g_strdup("ray-traced truth");
+    if (s->truth.passes == 0)
+        return g_strdup_printf(
+            "ray-traced truth, first rays: %d %%",
+            (int)(100 * s->truth.known
+                  / MAX(1, (int64_t)a->shown.buffers->width * a->shown.buffers->height)));
+    return g_strdup_printf("ray-traced truth, %d rays",
+                           s->truth.passes * TRUTH_PASS_RAYS);
+}
+
+static char *name_of(const app *a, int half)
+{
+    const half_look look = a->shown.wish.half[half].look;
+    char *content = content_of(a, half), *name;
+    if (look == LOOK_DIFFERENCE) {
+        char *left = content_of(a, 0), *right = content_of(a, 1);
+        name = g_strdup_printf("%s minus %s", left, right);
+        g_free(left);
+        g_free(right);
+    } else {
+        name = g_strdup_printf("%s%s", content, look == LOOK_LIT ? ", lit" : "");
+    }
+    g_free(content);
+    return name;
 }
 
 /* The colours of the heat map from -scale to scale. */

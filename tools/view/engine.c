@@ -103,8 +103,7 @@ static buffers *cast(engine *e, const wish *w, int32_t coarseness)
     return NULL;
 }
 
-/* The G-buffer of the wish; false if there is none. */
-static bool place(engine *e, const wish *w)
+bool engine_place(engine *e, const wish *w)
 {
     const int32_t coarseness = coarseness_of(e, w);
     if (same_place(e, w, coarseness))
@@ -327,7 +326,7 @@ bool engine_render(engine *e, const wish *w, shown *out)
 {
     *out = (shown){.wish = *w};
     e->problem[0] = '\0';
-    bool done = place(e, w);
+    bool done = engine_place(e, w);
     if (!done && atomic_load(&e->source->stop))
         return false;
     if (done) {

@@ -28,6 +28,10 @@ int engine_open(engine *e, source *from, truth *t, const common_settings *common
                 report *r);
 void engine_close(engine *e);
 
+/* Casts or reads the G-buffer of the wish; false if there is none. engine_render() does
+ * so by itself. */
+bool engine_place(engine *e, const wish *w);
+
 /* Makes the picture; false if source->stop was set meanwhile. Whatever fails is said in
  * out->problem. The caller frees *out. */
 bool engine_render(engine *e, const wish *w, shown *out);

@@ -35,10 +35,11 @@ static int find_radius(session *s)
     } else if (s->source.model) {
         s->usual_radius = scene_suggest_radius(s->source.model, &s->wish.view);
     } else {
-        buffers *b = source_read(&s->source, 0, &s->engine.estimator, s->r);
-        if (!b)
+        if (!engine_place(&s->engine, &s->wish)) {
+            if (s->engine.problem[0])
+                report_error(s->r, "%s", s->engine.problem);
             return EXIT_FAILED;
-        buffers_release(b);
+        }
         s->usual_radius = s->source.radius > 0.0f ? s->source.radius : 1.0f;
     }
     return EXIT_DONE;

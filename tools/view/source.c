@@ -33,6 +33,7 @@ static int open_frames(source *s, const char *frames, report *r)
     const view_settings *v = s->settings;
     s->request = (io_passes_request){
         .depth_format = crv_depth_format_planar(),
+        .keep_overscan = true, /* as `crevice ao` does */
         .remedies = {.camera = "give its vertical field of view with --vfov DEGREES, or "
                                "--ortho HEIGHT"}};
     if (v->vfov_deg.given)
