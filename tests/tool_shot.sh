@@ -58,6 +58,32 @@ good ao "shot.####.exr" --frames 12 --append --skip-existing --radius-frame 1 \
     -o "hole.####.exr"
 same hole "a frame that was mended"
 
+# Several frames at a time give the same bits, also if they are killed, and tell of all
+# frames that fail in one line.
+good ao "shot.####.exr" --frames 1-$frames --append --jobs 3 -o "jobs.####.exr"
+[ "$(grep -c '^wrote' stderr.txt)" -eq $frames ] || fail "--jobs: not every frame is told"
+same jobs "--jobs"
+jobs="--frames 1-$frames --append --jobs 4 --skip-existing -q -o killed.####.exr"
+# shellcheck disable=SC2086
+"$tool" ao "shot.####.exr" $jobs 2>killed.txt &
+while [ ! -e killed.0005.exr ] && kill -0 $! 2>/dev/null; do :; done
+kill -9 $! 2>/dev/null || true
+wait $! 2>/dev/null || true
+# shellcheck disable=SC2086
+good ao "shot.####.exr" $jobs
+same killed "--jobs that were killed"
+mv shot.0002.exr good2.exr
+mv shot.0007.exr good7.exr
+code=0
+"$tool" ao "shot.####.exr" --frames 1-8 --jobs 64 -q -o "hole.####.png" 2>stderr.txt || code=$?
+[ $code -eq 1 ] || fail "exit code $code of --jobs with bad frames"
+grep -q '^crevice: 2 of 8 frames failed; .*--frames 2,7$' stderr.txt || fail "--jobs: no list"
+for frame in 1 3 4 5 6 8; do
+    [ -s hole.000$frame.png ] || fail "--jobs: frame $frame beside bad ones"
+done
+mv good2.exr shot.0002.exr
+mv good7.exr shot.0007.exr
+
 # If the first frame is lost, it gets the radius that the others have.
 rm again.0001.exr again.0002.exr
 # shellcheck disable=SC2086
@@ -71,6 +97,8 @@ pfm empty.0003.pfm 2 2 1 1 2 1
 good ao "empty.####.pfm" --frames 1-3 --vfov 90 -o "full.####.exr"
 good ao "empty.####.pfm" --frames 1 --vfov 90 -o "rest.####.exr"
 good ao "empty.####.pfm" --frames 1-3 --vfov 90 --skip-existing -o "rest.####.exr"
+good ao "empty.####.pfm" --frames 1-3 --vfov 90 --jobs 3 -o "many.####.exr"
 for frame in 1 2 3; do
+    cmp -s full.000$frame.exr many.000$frame.exr || fail "--jobs, empty first frame: $frame"
     cmp -s full.000$frame.exr rest.000$frame.exr || fail "empty first frame: $frame differs"
 done

@@ -42,6 +42,14 @@ static const arg file_rows[] = {
      ARG_INTO(ARG_TEXT, ao_settings, frames),
      .help = "frames to compute, as 1-240, 1,3,10-20x2 or -5--1; one that fails is left "
              "out and listed at the end"},
+    {.name = "--jobs",
+     .value = "N",
+     ARG_RANGE(1, 256),
+     .initial = "1",
+     ARG_INTO(ARG_INT, ao_settings, jobs),
+     .help =
+         "frames at a time, each with its share of the threads and memory of its own; "
+         "faster on machines of many cores, with the same bits"},
     {.name = "--views",
      .value = "NAMES",
      ARG_INTO(ARG_TEXT, ao_settings, views),
@@ -340,6 +348,8 @@ static const char *shot_mistake(const ao_settings *s)
         return "--radius-frame: contradicts --radius; give one of them";
     if (s->radius_frame.given && !s->frames)
         return "--radius-frame: is for --frames; leave it out";
+    if (s->jobs.given && !s->frames)
+        return "--jobs: is for --frames; leave it out";
     if (s->skip_existing && !io_keeps_made(s->output))
         return "--skip-existing: a .pfm cannot say how it was made; write .exr or .png";
     return NULL;

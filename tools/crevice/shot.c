@@ -13,6 +13,7 @@
 #include "common/progress.h"
 #include "common/radius.h"
 #include "frame_facts.h"
+#include "jobs.h"
 #include "made.h"
 #include "masks.h"
 #include "results.h"
@@ -32,6 +33,9 @@ typedef struct shot {
     bool has_radius;   /* the user's, or that of the first frame that shows anything */
     frame_facts first; /* of the first frame */
     char made[IO_MADE_SIZE]; /* the settings, without the state */
+    job part;                /* of the frames, with --jobs */
+    int32_t radius_from;     /* place of the frame that decided the radius; 0: any */
+    bool is_before_radius;   /* the frame at hand lies before that, and shows nothing */
     estimator estimator;
 } shot;
 
@@ -108,6 +112,12 @@ static void take_up(shot *t, const made_state *state)
     t->request.is_later = true;
 }
 
+static bool is_same_radius(const shot *t, const made_state *state)
+{
+    return !t->has_radius || !state->has_radius
+           || fabsf(state->radius - t->options.radius) <= 1e-6f * t->options.radius;
+}
+
 /* Whether a result is there, whole, and made with these settings. */
 static bool is_done(shot *t, const char *output, report *r)
 {
@@ -120,9 +130,7 @@ static bool is_done(shot *t, const char *output, report *r)
     const bool whole =
         made_read(output, append_is_wanted(t->settings) ? channel : NULL, made);
     const bool same =
-        whole && made_matches(t->made, made, &state)
-        && (!t->has_radius || !state.has_radius
-            || fabsf(state.radius - t->options.radius) <= 1e-6f * t->options.radius);
+        whole && made_matches(t->made, made, &state) && is_same_radius(t, &state);
     if (!same) {
         report_info(r, "%s: is %s; it is made again", output,
                     whole ? "made with other settings" : "not whole");
@@ -133,26 +141,28 @@ static bool is_done(shot *t, const char *output, report *r)
     return true;
 }
 
-/* The first result that is there gives the radius, so that frames before it, which failed
- * or were lost, do not choose another. */
-static int find_made_radius(shot *t, report *r)
+/* The first result that is there gives the radius and the rest, so that frames before it,
+ * which failed or were lost, do not choose another. */
+static int find_made_state(shot *t, report *r)
 {
     frame_paths paths;
     char made[IO_MADE_SIZE], channel[IO_NAME_SIZE];
     made_state state;
     if (!t->settings->skip_existing || !t->list)
         return EXIT_DONE;
-    for (int32_t i = 0; i < frames_count(t->list) && !t->has_radius; i++) {
+    for (int32_t i = 0; i < frames_count(t->list); i++) {
         const int result = name_frame(t, frames_at(t->list, i), &paths, r);
         if (result != EXIT_DONE)
             return result;
         name_channel(t, channel);
         made_glance(paths.output, append_is_wanted(t->settings) ? channel : NULL, made);
-        if (!made_matches(t->made, made, &state) || !state.has_radius)
+        if (!made_matches(t->made, made, &state) || !state.has_radius
+            || !is_same_radius(t, &state))
             continue;
-        t->options.radius = state.radius;
-        t->has_radius = true;
-        report_info(r, "radius: %g, of %s", (double)state.radius, paths.output);
+        if (!t->has_radius)
+            report_info(r, "radius: %g, of %s", (double)state.radius, paths.output);
+        take_up(t, &state);
+        break;
     }
     return EXIT_DONE;
 }
@@ -265,7 +275,7 @@ static int load_as_shot(shot *t, const frame_paths *paths, io_frame *frame, repo
     int result = load(t, paths, frame, r);
     if (result != EXIT_DONE)
         return result;
-    if (frame->reading && frame->reading_decided && !t->request.usual_reading)
+    if (frame->reading && frame->reading_decided && !t->request.is_later)
         t->request.usual_reading = frame->reading;
     if (frame->reading && !frame->reading_decided && !t->request.is_later
         && !t->request.usual_reading) {
@@ -316,7 +326,7 @@ static int compute(shot *t, const frame_paths *paths, ao_result *result, int32_t
 static int write_results(const shot *t, const frame_paths *paths, ao_result *results,
                          report *r)
 {
-    const made_state state = {.has_radius = t->has_radius,
+    const made_state state = {.has_radius = t->has_radius && !t->is_before_radius,
                               .radius = t->options.radius,
                               .reading = t->request.usual_reading,
                               .encoding = t->request.depth_format.encoding};
@@ -401,7 +411,7 @@ static int find_radius(shot *t, report *r)
     frame_paths paths;
     io_frame frame = {0};
     if (!t->settings->radius_frame.given)
-        return find_made_radius(t, r);
+        return find_made_state(t, r);
     int result = name_frame(t, t->settings->radius_frame.value, &paths, r);
     if (result == EXIT_DONE)
         result = load_as_shot(t, &paths, &frame, r);
@@ -434,28 +444,103 @@ static void tell_failures(const int32_t *failed, int32_t count, int32_t total, r
                  (int)total, text);
 }
 
-static int process_list(shot *t, report *r)
+/* With --jobs each process finds out for itself what the first frames decide for all. */
+static void decide(shot *t, report *r)
+{
+    report mute = *r;
+    mute.quiet = mute.brief = true;
+    mute.logger = (crv_logger){0};
+    const int32_t total = frames_count(t->list);
+    for (int32_t i = 0; i < total && !(t->has_radius && t->request.is_later); i++) {
+        frame_paths paths;
+        io_frame frame = {0};
+        if (name_frame(t, frames_at(t->list, i), &paths, &mute) == EXIT_DONE
+            && load_as_shot(t, &paths, &frame, &mute) == EXIT_DONE && !t->has_radius
+            && upload(&t->estimator, &frame, &mute) == EXIT_DONE) {
+            fix_radius(t, &frame, t->part.slice ? &mute : r);
+            t->radius_from = i;
+        }
+        io_frame_free(&frame);
+    }
+}
+
+/* The frames of t->part. */
+static int process_part(shot *t, job_failures *failures, report *r)
 {
     const int32_t total = frames_count(t->list);
-    int32_t *failed = malloc((size_t)total * sizeof *failed), count = 0;
-    int result = failed ? EXIT_DONE : report_no_memory(r);
+    int result = EXIT_DONE;
     progress p = progress_begin(r, "frames", 0, total);
-    for (int32_t i = 0; i < total && result != EXIT_USAGE && failed; i++) {
+    for (int32_t i = t->part.slice; i < total && result != EXIT_USAGE;
+         i += t->part.count) {
         const int32_t number = frames_at(t->list, i);
+        t->is_before_radius = i < t->radius_from;
         result = process(t, &number, r);
         if (result == EXIT_FAILED) {
-            failed[count++] = number;
+            failures->frames[failures->count++] = number;
             r->errors = 0; /* each failure has its line */
+            if (t->part.count > 1)
+                jobs_tell(&t->part, number);
         }
         r->brief = true;
-        if (total > 1)
+        if (total > 1 && t->part.slice == 0)
             progress_show(&p, i + 1);
     }
     progress_end(&p);
-    if (count && total > 1)
-        tell_failures(failed, count, total, r);
-    free(failed);
-    return count ? EXIT_FAILED : result;
+    return failures->count ? EXIT_FAILED : result;
+}
+
+/* What is decided before the frames, then the frames. */
+static int process_frames(shot *t, job_failures *failures, report *r)
+{
+    int result = t->request.fit_vfov && t->list ? find_lens(t, r) : EXIT_DONE;
+    if (result != EXIT_DONE)
+        return result;
+    made_describe(t->settings, &t->options, t->request.vfov_rad, t->cameras.checksum,
+                  t->made);
+    common_settings common = t->settings->common;
+    if (t->part.count > 1)
+        common.threads.value = jobs_threads(common.threads.value, t->part.count);
+    result = estimate_open(&t->estimator, &common, r);
+    if (result == EXIT_DONE)
+        result = find_radius(t, r);
+    if (result == EXIT_DONE && t->part.count > 1)
+        decide(t, r);
+    if (result == EXIT_DONE)
+        result = t->list ? process_part(t, failures, r) : process(t, NULL, r);
+    estimate_close(&t->estimator);
+    return result;
+}
+
+typedef struct job_work {
+    shot *t;
+    job_failures *failures;
+    report *r;
+} job_work;
+
+static int process_job(void *user, const job *part)
+{
+    job_work *work = user;
+    work->t->part = *part;
+    work->r->brief = part->slice > 0; /* the first tells what is found */
+    return process_frames(work->t, work->failures, work->r);
+}
+
+static int process_all(shot *t, report *r)
+{
+    const int32_t total = t->list ? frames_count(t->list) : 1;
+    const int32_t wanted = t->settings->jobs.value;
+    const int32_t jobs = wanted < total ? wanted : total;
+    job_failures failures = {.capacity = total};
+    job_work work = {t, &failures, r};
+    failures.frames = malloc((size_t)total * sizeof *failures.frames);
+    if (!failures.frames)
+        return report_no_memory(r);
+    const int result = jobs > 1 ? jobs_run(jobs, process_job, &work, &failures, r)
+                                : process_frames(t, &failures, r);
+    if (failures.count && total > 1)
+        tell_failures(failures.frames, failures.count, total, r);
+    free(failures.frames);
+    return result;
 }
 
 int shot_run(const ao_settings *settings, const io_passes_request *request,
@@ -466,26 +551,15 @@ int shot_run(const ao_settings *settings, const io_passes_request *request,
               .views = *views,
               .request = *request,
               .options = settings->common.options,
-              .has_radius = settings->common.radius_given};
+              .has_radius = settings->common.radius_given,
+              .part = {.count = 1}};
     int result = settings->camera ? camera_file_load(
                      settings->camera, settings->camera_order.value, &t.cameras, r)
                                   : EXIT_DONE;
     if (result != EXIT_DONE)
         return result;
     use_view(&t, 0);
-    if (t.request.fit_vfov && list)
-        result = find_lens(&t, r);
-    if (result != EXIT_DONE) {
-        camera_file_free(&t.cameras);
-        return result;
-    }
-    made_describe(settings, &t.options, t.request.vfov_rad, t.cameras.checksum, t.made);
-    result = estimate_open(&t.estimator, &settings->common, r);
-    if (result == EXIT_DONE)
-        result = find_radius(&t, r);
-    if (result == EXIT_DONE)
-        result = list ? process_list(&t, r) : process(&t, NULL, r);
-    estimate_close(&t.estimator);
+    result = process_all(&t, r);
     camera_file_free(&t.cameras);
     return result;
 }
