@@ -145,6 +145,43 @@ static void test_conventions(void **state)
     }
 }
 
+/* Passes that are found without reading a frame: every row, and names that look like it.
+ */
+static void test_find_pass(void **state)
+{
+    (void)state;
+    const char *found[3];
+    io_image image;
+    for (size_t i = 0; i < io_convention_count; i++) {
+        const io_convention *row = &io_conventions[i];
+        const bool vector = row->kind == IO_PASS_NORMAL || row->kind == IO_PASS_POSITION;
+        char text[5][128];
+        const char *names[5] = {text[0], text[1], text[2], text[3], text[4]};
+        for (int c = 0; c < 3; c++)
+            snprintf(text[c], sizeof text[c], "Part.%s.%c", row->name, "RGB"[c]);
+        snprintf(text[3], sizeof text[3], "B");
+        snprintf(text[4], sizeof text[4], "%s", row->kind == IO_PASS_NORMAL ? "Z" : "C");
+        assert_int_equal(io_image_init(&image, 1, 1, names, 5, NULL), 0);
+        assert_int_equal(io_find_pass(&image, row->kind, found), vector ? 3 : 1);
+        assert_string_equal(found[0], text[0]);
+        io_image_free(&image);
+    }
+    static const char *const cases[][2] = {
+        {"V.AO.R", "V.AO.R"},   {"ao", "ao"},
+        {"rs_AO.R", "rs_AO.R"}, {"Chaos.R", NULL},
+        {"Shadow.R", NULL},     {"my_occlusion", "my_occlusion"},
+        {"AO.G", NULL},         {"ao_dirt.V", "ao_dirt.V"}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const char *names[] = {cases[i][0], "R"};
+        assert_int_equal(io_image_init(&image, 1, 1, names, 2, NULL), 0);
+        assert_int_equal(io_find_pass(&image, IO_PASS_AO, found), cases[i][1] ? 1 : 0);
+        if (cases[i][1])
+            assert_string_equal(found[0], cases[i][1]);
+        assert_int_equal(io_find_pass(&image, IO_PASS_DEPTH, found), 0);
+        io_image_free(&image);
+    }
+}
+
 static void test_choice_by_name(void **state)
 {
     (void)state;
@@ -221,9 +258,13 @@ static void test_layers_of_solids(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_names),       cmocka_unit_test(test_only_channel),
-        cmocka_unit_test(test_conventions), cmocka_unit_test(test_choice_by_name),
-        cmocka_unit_test(test_layers),      cmocka_unit_test(test_layers_of_solids),
+        cmocka_unit_test(test_names),
+        cmocka_unit_test(test_only_channel),
+        cmocka_unit_test(test_conventions),
+        cmocka_unit_test(test_find_pass),
+        cmocka_unit_test(test_choice_by_name),
+        cmocka_unit_test(test_layers),
+        cmocka_unit_test(test_layers_of_solids),
     };
     return cmocka_run_group_tests(tests, support_setup, support_teardown);
 }

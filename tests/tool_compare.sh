@@ -111,6 +111,13 @@ bad 1 'nan.pfm: 2 compared values are NaN or infinite' compare a.pfm nan.pfm
 bad 1 'nan.pfm: 2 compared values are' compare nan.pfm a.pfm --heat-map out.png
 bad 1 'one size' compare a.pfm wide.pfm
 bad 1 'missing.exr: ' compare a.pfm missing.exr
+# A renderer's file: ambient occlusion, depth and normals by their names.
+good ao buffer.exr -o ao_of_frame.exr --radius 0.3
+good ao buffer.exr -o passes.exr --radius 0.3 --append --channel "View Layer.AO.R"
+good compare --json passes.exr ao_of_frame.exr
+grep -q '"View Layer.AO.R" is compared' stderr.txt || fail "a renderer's pass"
+at_most "$(number max_error)" 0 "the same pass in both files"
+
 bad 1 'AO' compare ao.exr ao.exr --channel BO
 bad 2 '--channel' compare buffer.exr ao.exr
 bad 2 'B is missing' compare a.pfm

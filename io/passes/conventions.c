@@ -13,6 +13,10 @@
     {                                                                                    \
         .renderer = renderer_, .name = name_, .kind = IO_PASS_POSITION, __VA_ARGS__      \
     }
+#define AO(renderer_, name_, ...)                                                        \
+    {                                                                                    \
+        .renderer = renderer_, .name = name_, .kind = IO_PASS_AO, __VA_ARGS__            \
+    }
 #define NORMAL(renderer_, name_, ...)                                                    \
     {                                                                                    \
         .renderer = renderer_, .name = name_, .kind = IO_PASS_NORMAL, __VA_ARGS__        \
@@ -58,6 +62,12 @@ const io_convention io_conventions[] = {
     POSITION("any", "Pcam", .axes = "camera"),
     POSITION("Corona", "CGeometry_WorldPosition", .axes = "world"),
     POSITION("Octane, info passes", "Info_Position", .axes = "world"),
+
+    AO("Crevice, Blender, Redshift", "AO", .encoding = "1 open, 0 occluded"),
+    AO("any", "Ambient Occlusion"),
+    AO("any", "AmbientOcclusion"),
+    AO("any", "Ambient_Occlusion"),
+    AO("any", "Occlusion"),
 
     NORMAL("Arnold, Redshift, Karma, Mantra, Cycles", "N", .axes = "world"),
     NORMAL("Blender", "Normal", .axes = "world, right-handed, z up"),

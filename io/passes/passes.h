@@ -7,6 +7,7 @@
 #ifndef CREVICE_IO_PASSES_PASSES_H
 #define CREVICE_IO_PASSES_PASSES_H
 
+#include "conventions.h"
 #include "io.h"
 
 typedef enum io_normal_space {
@@ -105,6 +106,13 @@ typedef struct io_frame {
  */
 int io_frame_load(const char *path, const io_passes_request *request, io_frame *out,
                   const crv_logger *log);
+
+/*
+ * The channels of a probed file's pass, by the names that renderers use: one for depth
+ * and ambient occlusion, x, y and z for normals, and for positions if there is no depth.
+ * Returns how many, 0 if there is none. The names point into the image.
+ */
+int io_find_pass(const io_image *probed, io_pass_kind kind, const char *found[3]);
 
 /* Frees what the frame owns and zeroes it. */
 void io_frame_free(io_frame *frame);

@@ -7,10 +7,10 @@
 #include "commands.h"
 #include "common/flip.h"
 #include "common/heatmap.h"
-#include "io.h"
 #include "common/metrics.h"
 #include "common/metrics_print.h"
 #include "common/progress.h"
+#include "passes/passes.h"
 
 typedef struct compare_settings {
     common_settings common;
@@ -86,70 +86,106 @@ typedef struct picture {
     const float *normal[3]; /* all or none */
 } picture;
 
-static const char *const normal_names[3] = {"N.X", "N.Y", "N.Z"};
-
 static const char *choose_channel(const char *path, const io_image *probe,
                                   const char *wanted, report *r)
 {
-    const char *grey[] = {"AO", "Y"};
+    const char *found[3];
     if (wanted)
         return wanted; /* io_read() lists them if it is not one of them */
     if (probe->channel_count == 1)
         return probe->channels[0].name;
-    for (size_t i = 0; i < sizeof grey / sizeof grey[0]; i++)
-        if (io_image_find(probe, grey[i]))
-            return grey[i];
-    report_error(r, "%s: has %d channels and none is named AO; choose one with --channel",
+    if (io_find_pass(probe, IO_PASS_AO, found)) {
+        if (strcmp(found[0], "AO") != 0)
+            report_info(r, "%s: \"%s\" is compared (choose with --channel)", path,
+                        found[0]);
+        return found[0];
+    }
+    if (io_image_find(probe, "Y"))
+        return "Y";
+    report_error(r,
+                 "%s: has %d channels and none is named AO or the like; choose one with "
+                 "--channel",
                  path, probe->channel_count);
     return NULL;
 }
 
-static const float *channel_data(const io_image *image, const char *name)
+/* The place of a name in the list, to which it is added if it is not there yet. */
+static int32_t place_of(const char *names[5], int32_t *count, const char *name)
 {
-    const io_channel *channel = io_image_find(image, name);
-    return channel ? channel->data : NULL;
+    for (int32_t i = 0; i < *count; i++)
+        if (strcmp(names[i], name) == 0)
+            return i;
+    names[*count] = name;
+    return (*count)++;
+}
+
+static int read_channels(const char *path, const io_image *probe, const char *chosen,
+                         picture *out, report *r)
+{
+    const char *names[5], *depth[3], *normal[3];
+    int32_t count = 0, depth_at = -1, normal_at[3] = {-1, -1, -1};
+    place_of(names, &count, chosen);
+    if (io_find_pass(probe, IO_PASS_DEPTH, depth))
+        depth_at = place_of(names, &count, depth[0]);
+    if (io_find_pass(probe, IO_PASS_NORMAL, normal))
+        for (int i = 0; i < 3; i++)
+            normal_at[i] = place_of(names, &count, normal[i]);
+    /* Passes of parts with other windows tell nothing of the compared pixels. */
+    if (io_read(path, names, count, &out->image, NULL) != 0) {
+        depth_at = normal_at[0] = -1;
+        if (io_read(path, names, 1, &out->image, &r->logger) != 0)
+            return EXIT_FAILED;
+    }
+    out->values = out->image.channels[0].data;
+    out->depth = depth_at >= 0 ? out->image.channels[depth_at].data : NULL;
+    for (int i = 0; i < 3 && normal_at[0] >= 0; i++)
+        out->normal[i] = out->image.channels[normal_at[i]].data;
+    return EXIT_DONE;
+}
+
+static double normal_length(const picture *p, size_t i)
+{
+    const double x = (double)p->normal[0][i], y = (double)p->normal[1][i],
+                 z = (double)p->normal[2][i];
+    return sqrt(x * x + y * y + z * z);
+}
+
+/* A renderer's mean over a silhouette is shorter than one. */
+static bool is_unit(const picture *p, size_t i)
+{
+    return fabs(normal_length(p, i) - 1.0) <= 0.01;
+}
+
+/* Whether normals tell background at all: those that are stored as n / 2 + 1/2 do not. */
+static bool are_unit(const picture *p)
+{
+    const size_t count = (size_t)p->image.width * (size_t)p->image.height;
+    size_t unit = 0, none = 0;
+    for (size_t i = 0; i < count; i++) {
+        unit += is_unit(p, i);
+        none += !(normal_length(p, i) > 0.0);
+    }
+    return 2 * (unit + none) > count;
 }
 
 static int load(const char *path, const char *wanted, picture *out, report *r)
 {
     io_image probe = {0};
-    char name[IO_NAME_SIZE];
-    const char *names[5];
-    int32_t count = 0;
     if (io_probe(path, &probe, &r->logger) != 0)
         return EXIT_FAILED;
     const char *chosen = choose_channel(path, &probe, wanted, r);
-    if (!chosen) {
-        io_image_free(&probe);
-        return EXIT_USAGE;
-    }
-    snprintf(name, sizeof name, "%s", chosen);
-    names[count++] = name;
-    if (strcmp(name, "Z") != 0 && io_image_find(&probe, "Z"))
-        names[count++] = "Z";
-    for (int i = 0; i < 3; i++)
-        if (strcmp(name, normal_names[i]) != 0 && io_image_find(&probe, normal_names[i]))
-            names[count++] = normal_names[i];
+    const int result = chosen ? read_channels(path, &probe, chosen, out, r) : EXIT_USAGE;
     io_image_free(&probe);
-    if (io_read(path, names, count, &out->image, &r->logger) != 0)
-        return EXIT_FAILED;
-    out->values = channel_data(&out->image, name);
-    out->depth = channel_data(&out->image, "Z");
-    for (int i = 0; i < 3; i++)
-        out->normal[i] = channel_data(&out->image, normal_names[i]);
-    return EXIT_DONE;
+    if (result == EXIT_DONE && out->normal[0] && !are_unit(out))
+        out->normal[0] = NULL;
+    return result;
 }
 
 static bool is_background(const picture *p, size_t i)
 {
     if (p->depth && !(p->depth[i] > 0.0f && p->depth[i] < 1e10f))
         return true;
-    if (!p->normal[0] || !p->normal[1] || !p->normal[2])
-        return false;
-    const double x = (double)p->normal[0][i], y = (double)p->normal[1][i],
-                 z = (double)p->normal[2][i];
-    /* A renderer's mean over a silhouette is shorter than one. */
-    return !(fabs(sqrt(x * x + y * y + z * z) - 1.0) <= 0.01);
+    return p->normal[0] && !is_unit(p, i);
 }
 
 static uint8_t *make_mask(const picture *a, const picture *b, report *r)
@@ -304,9 +340,11 @@ const command command_compare = {
                "error, best fits, heat map",
     .synopsis = "A B [--channel NAME] [--heat-map FILE] [--json]",
     .details =
-        "Pixels that are background in either file are left out: those whose Z is not "
-        "finite, not positive or at least 1e10, and those whose normals N.X, N.Y, N.Z "
-        "are not of unit length (1 % off). SSIM is the mean over 11x11 "
+        "Of a renderer's file the pass of ambient occlusion is taken by its name, and "
+        "depth and normals tell background (`crevice help passes`). Pixels that are "
+        "background in either file are left out: those whose depth is not finite, not "
+        "positive or at least 1e10, and those whose normals are not of unit length (1 % "
+        "off), if most are. SSIM is the mean over 11x11 "
         "windows without such pixels. FLIP (Andersson et al. 2020) is the mean of the "
         "difference seen when the pictures alternate on a screen, their values shown as "
         "sRGB grey and the background white. Signed errors are A - B: bias is their "

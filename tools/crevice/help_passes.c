@@ -35,8 +35,11 @@ void help_passes(FILE *out)
     print_rows(out, IO_PASS_POSITION);
     fprintf(out, "\nNormals, as NAME.X .Y .Z, .R .G .B or NAMEX NAMEY NAMEZ:\n");
     print_rows(out, IO_PASS_NORMAL);
-    fprintf(
-        out,
-        "\nOther names are taken if they contain \"depth\", \"position\" or \"normal\"; "
-        "--depth and --normal choose any.\n");
+    fprintf(out,
+            "\nAmbient occlusion, which `crevice compare` takes, as NAME.R, .V, .Y or "
+            "a channel itself:\n");
+    print_rows(out, IO_PASS_AO);
+    fprintf(out, "\nOther names are taken if they contain \"depth\", \"position\", "
+                 "\"normal\" or \"occlusion\"; "
+                 "--depth and --normal choose any.\n");
 }

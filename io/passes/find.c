@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: MIT */
+/* find.c: passes by their usual names, without a word about it. */
+#include <string.h>
+#include <strings.h>
+
+#include "names.h"
+#include "passes.h"
+#include "pieces.h"
+
+/* Whether a name begins or ends with the word "AO". */
+static bool has_ao(const char *layer, size_t length)
+{
+    return length > 3
+           && ((!strncasecmp(layer, "ao", 2) && strchr("_- ", layer[2]))
+               || (!strncasecmp(layer + length - 2, "ao", 2)
+                   && strchr("_- ", layer[length - 3])));
+}
+
+static int ao_rank_of(const char *name, bool with_component)
+{
+    static const char *const components[] = {"R", "V", "Y"};
+    const io__pieces s = io__split_channel(name, with_component);
+    int component = 0;
+    while (with_component && component < 3
+           && strcasecmp(s.component, components[component]) != 0)
+        component++;
+    if (component == 3 || (with_component && !s.component[0]))
+        return IO__NO_MATCH;
+    const int row = io__row_of(&s, IO_PASS_AO);
+    if (row >= 0)
+        return 4 * row + component;
+    return io__contains(s.layer, s.layer_length, "occlusion")
+                   || has_ao(s.layer, s.layer_length)
+               ? IO__LOOKS_LIKE + component
+               : IO__NO_MATCH;
+}
+
+static int find_ao(const io_image *probed, const char *found[3])
+{
+    int best = IO__NO_MATCH;
+    for (int32_t i = 0; i < probed->channel_count; i++) {
+        const char *name = probed->channels[i].name;
+        for (int with = 0; with < 2; with++) {
+            const int rank = ao_rank_of(name, with);
+            if (rank < best) {
+                best = rank;
+                found[0] = name;
+            }
+        }
+    }
+    return best < IO__NO_MATCH ? 1 : 0;
+}
+
+int io_find_pass(const io_image *probed, io_pass_kind kind, const char *found[3])
+{
+    const io_passes_request request = {0};
+    io__pass_names names = {0};
+    if (kind == IO_PASS_AO)
+        return find_ao(probed, found);
+    if (io__choose_depth("", probed, &request, &names, NULL))
+        return 0;
+    /* A lone Y may be anything. */
+    if (kind == IO_PASS_DEPTH && !names.position[0] && strcasecmp(names.depth[0], "Y")
+        && strcasecmp(names.depth[0], "V")) {
+        found[0] = names.depth[0];
+        return 1;
+    }
+    if (kind == IO_PASS_NORMAL && !io__choose_normals("", probed, &request, &names, NULL)
+        && names.normal[0]) {
+        memcpy(found, names.normal, sizeof names.normal);
+        return 3;
+    }
+    if (kind == IO_PASS_POSITION && names.position[0]) {
+        memcpy(found, names.position, sizeof names.position);
+        return 3;
+    }
+    return 0;
+}
