@@ -16,6 +16,11 @@ crevice_test(test_tool_camera
 target_compile_definitions(test_tool_camera PRIVATE _XOPEN_SOURCE=700)
 target_include_directories(test_tool_camera PRIVATE ${tool_dir} ${PROJECT_SOURCE_DIR}/tools)
 
+crevice_test(test_tool_shrink
+    SOURCES test_tool_shrink.c ${tool_dir}/shrink.c LIBS crevice_common)
+target_include_directories(test_tool_shrink
+    PRIVATE ${tool_dir} ${PROJECT_SOURCE_DIR}/tools)
+
 # Each script gets the tool and a folder of its own to write in.
 function(tool_test name)
     add_test(NAME ${name} COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/${name}.sh
@@ -33,6 +38,7 @@ tool_test(tool_light)
 tool_test(tool_ao)
 tool_test(tool_append)
 tool_test(tool_masks)
+tool_test(tool_shrink)
 tool_test(tool_shot)
 tool_test(tool_views)
 tool_test(tool_compare)

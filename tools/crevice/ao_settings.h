@@ -13,7 +13,7 @@ typedef struct ao_settings {
     arg_int camera_order;
     arg_int depth_encoding, normal_space, layer_kind;
     arg_number vfov_deg, hfov_deg, lens_mm, sensor_mm, ortho, z_near, z_far, background;
-    arg_int radius_frame, jobs;
+    arg_int radius_frame, jobs, aa;
     arg_int bits;
     bool half, skip_existing, crop;
     bool append, replace;

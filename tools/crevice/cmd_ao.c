@@ -58,6 +58,13 @@ static const arg file_rows[] = {
     {.name = "--crop",
      ARG_INTO(ARG_FLAG, ao_settings, crop),
      .help = "only the display window gets a result; overscan still occludes"},
+    {.name = "--aa",
+     .value = "N",
+     ARG_RANGE(1, 16),
+     .initial = "1",
+     ARG_INTO(ARG_INT, ao_settings, aa),
+     .help = "antialiased, for frames rendered N times larger: a pixel of the result is "
+             "the mean of those of NxN that show a surface"},
     {.name = "--skip-existing",
      ARG_INTO(ARG_FLAG, ao_settings, skip_existing),
      .help = "leave results that are whole and made with the same settings, and take "

@@ -39,6 +39,9 @@ const char *append_mistake(const ao_settings *s)
     for (int i = 0; s->tint.given && i < 3; i++)
         if (!(s->tint.value[i] >= 0.0 && s->tint.value[i] <= 1.0))
             return "--tint: must lie between 0 (black) and 1; give R,G,B";
+    if (append_is_wanted(s) && s->aa.value > 1)
+        return "--aa: the result is smaller than the frame and cannot be put into it; "
+               "leave out --append and --apply";
     if (append_is_wanted(s) && !io_keeps_windows(s->output))
         return s->append ? "--append: keeps the channels of the frame, which only .exr "
                            "can; write .exr"

@@ -62,6 +62,8 @@ void made_describe(const ao_settings *s, const crv_options *o, float vfov_rad,
         append(made, " camera=%016" PRIx64 ",%d", cameras, (int)s->camera_order.value);
     append(made, " exact=%d half=%d bits=%d crop=%d", s->common.exact, s->half,
            s->bits.value == 0 ? 8 : 16, s->crop);
+    if (s->aa.value > 1)
+        append(made, " aa=%d", (int)s->aa.value);
     if (s->views)
         append(made, " views=%s", s->views);
     if (s->receive)

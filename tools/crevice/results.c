@@ -6,6 +6,7 @@
 
 #include "common/output.h"
 #include "frame_facts.h"
+#include "shrink.h"
 #include "views.h"
 
 /* The result lies where the frame does, without its guard band. */
@@ -67,8 +68,12 @@ int results_write(const ao_settings *s, const char *input, const char *output,
 {
     const io_write_options options = {.half = s->half,
                                       .bits = s->bits.value == 0 ? 8 : 16};
-    for (int32_t i = 0; i < count; i++)
+    for (int32_t i = 0; i < count; i++) {
         place(&results[i], made, state);
+        if (s->aa.value > 1
+            && shrink(&results[i].frame, s->aa.value, &results[i].ao, r) != EXIT_DONE)
+            return EXIT_FAILED;
+    }
     if (append_is_wanted(s))
         return append_write(s, input, output, results, count, r);
     if (count > 1)

@@ -17,6 +17,7 @@
 #include "made.h"
 #include "masks.h"
 #include "results.h"
+#include "shrink.h"
 #include "views.h"
 
 enum { PATH_SIZE = 4096, LOOKED_AT = 5 };
@@ -306,6 +307,8 @@ static int compute(shot *t, const frame_paths *paths, ao_result *result, int32_t
     int code = load_as_shot(t, paths, &result->frame, r);
     if (code == EXIT_DONE)
         code = append_check(t->settings, input, result + 1 - so_far, so_far, r);
+    if (code == EXIT_DONE)
+        code = shrink_check(&result->frame, t->settings->aa.value, input, r);
     if (code == EXIT_DONE)
         facts_compare(&t->first, &result->frame, input, r);
     if (code == EXIT_DONE)
