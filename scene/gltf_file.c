@@ -251,7 +251,9 @@ bool gltf_read_buffers(gltf *g)
 {
     const cJSON *array = gltf_member(g->root, "buffers");
     const cJSON *buffer;
-    const int count = cJSON_IsArray(array) ? cJSON_GetArraySize(array) : 0;
+    if (!cJSON_IsArray(array)) /* the loop would take the members of an object */
+        array = NULL;
+    const int count = array ? cJSON_GetArraySize(array) : 0;
     g->buffers = calloc((size_t)count + 1, sizeof *g->buffers);
     if (!g->buffers)
         return false;
