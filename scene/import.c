@@ -126,13 +126,12 @@ static void tell_end(const char *path, import_end end, int status, double timeou
         scene_log(log, CRV_LOG_ERROR, path, "made its importer fail; %s", cure);
 }
 
-static int wait_for(pid_t child, int fd, const char *path, double timeout, import *out,
-                    const crv_logger *log)
+static int wait_for(pid_t child, int fd, const char *path, const import_wait *wait,
+                    import *out, const crv_logger *log)
 {
     int errors = 0, status = 0;
 import found = {0 };
-    const import_end end =
-        import_pipe_receive(fd, import_clock() + timeout, &found, &errors, log);
+    const import_end end = import_pipe_receive(fd, wait, &found, &errors, log);
     /* What it could still do is of no interest; if it has ended it tells how. */
     if (end != IMPORT_NOTHING)
         kill(child, SIGKILL);
@@ -144,7 +143,7 @@ import found = {0 };
     }
     import_free(&found);
     if (errors == 0)
-        tell_end(path, end, end == IMPORT_NOTHING ? status : 0, timeout, log);
+        tell_end(path, end, end == IMPORT_NOTHING ? status : 0, wait->timeout, log);
     return -1;
 }
 
@@ -153,6 +152,7 @@ int import_file(const char *path, const scene_limits *limits, import *out,
 {
     const double timeout =
         limits && limits->timeout_s > 0.0 ? limits->timeout_s : DEFAULT_TIMEOUT_S;
+    const import_wait wait = {import_clock(), timeout, limits};
     const pid_t parent = getpid();
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) {
@@ -170,7 +170,7 @@ int import_file(const char *path, const scene_limits *limits, import *out,
     if (child < 0)
         scene_log(log, CRV_LOG_ERROR, path, "cannot be read (%s); close other programs",
                   strerror(errno));
-    const int result = child < 0 ? -1 : wait_for(child, ends[0], path, timeout, out, log);
+    const int result = child < 0 ? -1 : wait_for(child, ends[0], path, &wait, out, log);
     close(ends[0]);
     return result;
 }

@@ -45,9 +45,15 @@ typedef enum import_end {
     IMPORT_NO_MEMORY
 } import_end;
 
-/* Reads until the result is complete, the pipe ends or the clock (CLOCK_MONOTONIC, in
- * seconds) passes `deadline`. Messages go to log; *errors counts those of errors. */
-import_end import_pipe_receive(int fd, double deadline, import *out, int *errors,
+/* How long the parent waits, by import_clock(). */
+typedef struct import_wait {
+    double start, timeout;
+    const scene_limits *limits; /* whom to tell of it; NULL: nobody */
+} import_wait;
+
+/* Reads until the result is complete, the pipe ends or the time is over. Messages go to
+ * log; *errors counts those of errors. */
+import_end import_pipe_receive(int fd, const import_wait *wait, import *out, int *errors,
                                const crv_logger *log);
 
 /* Seconds on CLOCK_MONOTONIC. */

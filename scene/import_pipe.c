@@ -150,16 +150,17 @@ import copy = * found;
     return true;
 }
 
-static import_end receive_bytes(int fd, double deadline, void *data, size_t size)
+static import_end receive_bytes(int fd, const import_wait *wait, void *data, size_t size)
 {
     char *bytes = data;
     while (size > 0) {
         struct pollfd ready = {.fd = fd, .events = POLLIN};
-        const double left = deadline - import_clock();
+        const double now = import_clock(), left = wait->start + wait->timeout - now;
         if (left <= 0.0)
             return IMPORT_TIMEOUT;
-        const int found =
-            poll(&ready, 1, left < 1000.0 ? (int)(left * 1e3) + 1 : 1000000);
+        const int found = poll(&ready, 1, left < 1.0 ? (int)(left * 1e3) + 1 : 1000);
+        if (found == 0 && wait->limits && wait->limits->waits)
+            wait->limits->waits(wait->limits->user, import_clock() - wait->start);
         if (found == 0 || (found < 0 && errno == EINTR))
             continue;
         const ssize_t got = found < 0 ? -1 : read(fd, bytes, size);
@@ -174,8 +175,8 @@ static import_end receive_bytes(int fd, double deadline, void *data, size_t size
 }
 
 /* Memory is taken as the bytes come: what is only announced costs nothing. */
-static import_end receive_block(int fd, double deadline, size_t size, size_t spare,
-                                void **out)
+static import_end receive_block(int fd, const import_wait *wait, size_t size,
+                                size_t spare, void **out)
 {
     char *block = NULL;
     size_t got = 0;
@@ -189,21 +190,21 @@ static import_end receive_block(int fd, double deadline, size_t size, size_t spa
             break;
         }
         block = grown;
-        end = receive_bytes(fd, deadline, block + got, more);
+        end = receive_bytes(fd, wait, block + got, more);
         got += more;
     } while (end == IMPORT_DONE && got < size);
     *out = block;
     return end;
 }
 
-static import_end receive_message(int fd, double deadline, const record *head,
+static import_end receive_message(int fd, const import_wait *wait, const record *head,
                                   int *errors, const crv_logger *log)
 {
     char line[MAX_LINE + 1];
     if (head->size < 1 || head->size > MAX_LINE || head->level < CRV_LOG_ERROR
         || head->level > CRV_LOG_INFO)
         return IMPORT_DAMAGED;
-    const import_end end = receive_bytes(fd, deadline, line, (size_t)head->size);
+    const import_end end = receive_bytes(fd, wait, line, (size_t)head->size);
     if (end != IMPORT_DONE)
         return end;
     line[head->size] = '\0';
@@ -260,7 +261,7 @@ static bool are_sound_cameras(const scene_camera *cameras, size_t count)
 }
 
 /* The masks' pictures follow the arrays. */
-static import_end receive_masks(int fd, double deadline, mesh *m)
+static import_end receive_masks(int fd, const import_wait *wait, mesh *m)
 {
     import_end end = IMPORT_DONE;
     for (size_t i = 0; i < m->mask_count; i++)
@@ -272,19 +273,20 @@ static import_end receive_masks(int fd, double deadline, mesh *m)
             return IMPORT_DAMAGED;
         const size_t size = (size_t)mask->width * (size_t)mask->height;
         void *alpha = NULL;
-        end = receive_block(fd, deadline, size, 0, &alpha);
+        end = receive_block(fd, wait, size, 0, &alpha);
         mask->alpha = alpha;
     }
     return end;
 }
 
-static import_end receive_result(int fd, double deadline, const record *head, import *out)
+static import_end receive_result(int fd, const import_wait *wait, const record *head,
+                                 import *out)
 {
     result_head counts;
     part parts[PART_COUNT];
     if (head->size != sizeof counts)
         return IMPORT_DAMAGED;
-    import_end end = receive_bytes(fd, deadline, &counts, sizeof counts);
+    import_end end = receive_bytes(fd, wait, &counts, sizeof counts);
     if (end != IMPORT_DONE)
         return end;
     if (counts.vertex_count > UINT32_MAX || counts.triangle_count > UINT32_MAX
@@ -293,7 +295,7 @@ static import_end receive_result(int fd, double deadline, const record *head, im
         return IMPORT_DAMAGED;
     list_parts(out, &counts, parts);
     for (int i = 0; i < PART_COUNT && end == IMPORT_DONE; i++)
-        end = receive_block(fd, deadline, (size_t)parts[i].count * parts[i].element_size,
+        end = receive_block(fd, wait, (size_t)parts[i].count * parts[i].element_size,
                             parts[i].spare, parts[i].data);
     out->mesh.vertex_count = out->mesh.vertex_capacity = (size_t)counts.vertex_count;
     out->mesh.triangle_count = out->mesh.triangle_capacity =
@@ -303,7 +305,7 @@ static import_end receive_result(int fd, double deadline, const record *head, im
     if (end != IMPORT_DONE)
         return end; /* the masks' pictures are not there yet, nor is their count */
     out->mesh.mask_count = out->mesh.mask_capacity = (size_t)counts.mask_count;
-    end = receive_masks(fd, deadline, &out->mesh);
+    end = receive_masks(fd, wait, &out->mesh);
     out->mesh.dropped_triangles = (size_t)counts.dropped_triangles;
     memcpy(out->mesh.origin, counts.origin, sizeof counts.origin);
     if (end == IMPORT_DONE
@@ -312,17 +314,17 @@ static import_end receive_result(int fd, double deadline, const record *head, im
     return end;
 }
 
-import_end import_pipe_receive(int fd, double deadline, import *out, int *errors,
+import_end import_pipe_receive(int fd, const import_wait *wait, import *out, int *errors,
                                const crv_logger *log)
 {
     for (int messages = 0; messages < MAX_MESSAGES; messages++) {
         record head;
-        import_end end = receive_bytes(fd, deadline, &head, sizeof head);
+        import_end end = receive_bytes(fd, wait, &head, sizeof head);
         if (end == IMPORT_DONE && head.kind == RECORD_RESULT)
-            return receive_result(fd, deadline, &head, out);
+            return receive_result(fd, wait, &head, out);
         if (end == IMPORT_DONE)
             end = head.kind == RECORD_MESSAGE
-                      ? receive_message(fd, deadline, &head, errors, log)
+                      ? receive_message(fd, wait, &head, errors, log)
                       : IMPORT_DAMAGED;
         if (end != IMPORT_DONE)
             return end;

@@ -30,6 +30,9 @@ int scene_load(const char *path, scene **out, const crv_logger *log);
 typedef struct scene_limits {
     double timeout_s;     /* 0: ten minutes */
     int64_t memory_bytes; /* 0: the machine's memory */
+    /* Told about once a second how long it has been waited for. NULL: nobody. */
+    void (*waits)(void *user, double seconds);
+    void *user; /* handed to waits */
 } scene_limits;
 
 /* scene_load() with limits of one's own; NULL: the defaults. */

@@ -10,6 +10,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 static const char triangle[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n";
 
@@ -35,6 +37,37 @@ static void test_timeout(void **state)
     refuse(path, &brief, "was not read within 1e-09 s");
     assert_int_equal(scene_load_limited(path, &ample, &s, NULL), 0);
     scene_free(s);
+}
+
+static void count_waits(void *user, double seconds)
+{
+    int *waits = user;
+    assert_true(seconds > 0.0);
+    ++*waits;
+}
+
+/* A material that is a pipe, to which nobody writes. */
+static void test_waiting(void **state)
+{
+    int waits = 0;
+    const scene_limits limits = {.timeout_s = 2.5, .waits = count_waits, .user = &waits};
+    messages m;
+    crv_logger log = catch_messages(&m);
+    scene *s = NULL;
+    char text[300];
+    (void)state;
+    snprintf(text, sizeof text, "mtllib pipe.mtl\n%s", triangle);
+    const char *path = write_text("waits.obj", text);
+    char *pipe = malloc(strlen(path) + 1);
+    assert_non_null(pipe);
+    strcpy(pipe, path);
+    strcpy(strrchr(pipe, '/'), "/pipe.mtl");
+    assert_int_equal(mkfifo(pipe, 0600), 0);
+    assert_int_equal(scene_load_limited(path, &limits, &s, &log), -1);
+    assert_error_line(&m, path);
+    assert_int_equal(unlink(pipe), 0);
+    free(pipe);
+    assert_in_range(waits, 2, 3); /* once a second, and perhaps at the end */
 }
 
 /* A million lines do not fit 4 MiB more than the process has already. */
@@ -161,6 +194,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_timeout),
+        cmocka_unit_test(test_waiting),
         cmocka_unit_test(test_memory),
         cmocka_unit_test(test_reader_that_crashes),
         cmocka_unit_test(test_children_that_are_not_there),

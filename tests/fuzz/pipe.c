@@ -19,8 +19,9 @@ import found = {0 };
     FUZZ_CHECK(!pipe(ends), "no pipe");
     FUZZ_CHECK(write(ends[1], data, size) == (ssize_t)size, "a short write");
     close(ends[1]);
+    const import_wait wait = {import_clock(), 5.0, NULL};
     const import_end end =
-        import_pipe_receive(ends[0], import_clock() + 5.0, &found, &errors, &fuzz_logger);
+        import_pipe_receive(ends[0], &wait, &found, &errors, &fuzz_logger);
     close(ends[0]);
     FUZZ_CHECK(end != IMPORT_TIMEOUT, "it waits");
     scene *s = NULL;
