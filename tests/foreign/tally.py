@@ -8,7 +8,8 @@ By hand, for example with Debian's assimp-testmodels and the pictures of OpenEXR
 
     tests/foreign/tally.py build/gcc/tools/crevice/crevice /usr/share/assimp/models
 
-A mesh goes through `render`, an EXR file through `ao`. Outcomes:
+A mesh goes through `render`, an EXR file through `ao`; if no channel of it looks like
+depth, its first one is taken for it, so that every pixel is read. Outcomes:
 
     picture   exit code 0, nothing to say
     warning   exit code 0, with a warning
@@ -26,6 +27,7 @@ import array
 import collections
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -68,6 +70,15 @@ def outcome(code, stderr, picture):
     return ("white" if is_open(picture) else "picture"), ""
 
 
+def run_command(command, seconds, picture):
+    try:
+        done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                              timeout=seconds, check=False)
+    except subprocess.TimeoutExpired:
+        return "hang", ""
+    return outcome(done.returncode, done.stderr.decode("utf-8", "replace"), picture)
+
+
 def run(tool, path, seconds, folder):
     picture = os.path.join(folder, "out.pfm")
     if os.path.exists(picture):
@@ -77,12 +88,12 @@ def run(tool, path, seconds, folder):
     else:
         command = [tool, "render", path, "-o", picture, "--size", "96x54",
                    "--import-timeout", str(0.8 * seconds)]
-    try:
-        done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                              timeout=seconds, check=False)
-    except subprocess.TimeoutExpired:
-        return "hang", ""
-    return outcome(done.returncode, done.stderr.decode("utf-8", "replace"), picture)
+    word, line = run_command(command, seconds, picture)
+    channels = re.search(r"no channel looks like depth \(there are: ([^,)]+)", line)
+    if word == "refusal" and channels:
+        word, line = run_command(command + ["--depth", channels[1], "--normal", "none"],
+                                 seconds, picture)
+    return word, line
 
 
 def files_of(folders):
