@@ -281,7 +281,7 @@ static void add_cameras(reader *r)
                                   : gltf_number(lens, "aspectRatio", 0.0);
         const scene_camera like = {
             .view = {.projection = box ? CRV_ORTHOGRAPHIC : CRV_PERSPECTIVE,
-                     .vfov_rad = (float)gltf_number(lens, "yfov", 0.8),
+                     .vfov_rad = (float)gltf_number(lens, "yfov", 0.0),
                      .view_height = (float)(2.0 * fabs(ymag))},
             .aspect = isfinite(aspect) ? (float)aspect : 0.0f,
         };

@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include <assimp/cimport.h>
 #include <assimp/config.h>
@@ -185,6 +186,22 @@ static vec3 vector_of(const struct aiVector3D *v)
     return v3((double)v->x, (double)v->y, (double)v->z);
 }
 
+static bool is_fbx(const char *path)
+{
+    const size_t length = strlen(path);
+    return length > 4 && !strcasecmp(path + length - 4, ".fbx");
+}
+
+/* 0 if the file does not say. assimp has 1 degree for an FBX camera that is described by
+ * its focal length alone, which it does not hand on. */
+static float hfov_of(const loader *l, const struct aiCamera *c)
+{
+    const bool unsaid =
+        is_fbx(l->path)
+        && fabs((double)c->mHorizontalFOV * 180.0 / SCENE_PI - 1.0) < 1e-4;
+    return c->mHorizontalFOV > 0.0f && !unsaid ? c->mHorizontalFOV : 0.0f;
+}
+
 static void add_cameras(const loader *l, const transform *root, import *out)
 {
     for (unsigned i = 0; l->file->mCameras && i < l->file->mNumCameras; i++) {
@@ -197,11 +214,10 @@ static void add_cameras(const loader *l, const transform *root, import *out)
         const double aspect = c->mAspect > 0.0f ? (double)c->mAspect : 16.0 / 9.0;
         const scene_camera like = {
             .view = {.projection = ortho ? CRV_ORTHOGRAPHIC : CRV_PERSPECTIVE,
-                     .vfov_rad = 0.8f,
                      .view_height =
                          (float)(2.0 * (double)c->mOrthographicWidth / aspect)},
             .aspect = c->mAspect > 0.0f ? c->mAspect : 0.0f,
-            .hfov_rad = ortho ? 0.0f : c->mHorizontalFOV,
+            .hfov_rad = ortho ? 0.0f : hfov_of(l, c),
         };
         const vec3 ahead = transform_direction(&t, vector_of(&c->mLookAt));
         if (!import_add_camera(

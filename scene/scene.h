@@ -89,7 +89,8 @@ typedef struct scene_camera {
     scene_view view;
     float aspect;   /* width / height; 0: not told */
     float hfov_rad; /* perspective, if the file tells the horizontal field of view: the
-                       vertical one follows from the picture; 0: view.vfov_rad */
+                       vertical one follows from the picture; 0: view.vfov_rad, and if
+                       that is 0, too, the file does not say */
 } scene_camera;
 
 /* In the order of the file; NULL beyond the last. */

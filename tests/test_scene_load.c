@@ -325,6 +325,50 @@ static void test_refusals(void **state)
     refuse(write_file("noise.stl", noise, sizeof noise), "cannot be read as a mesh");
 }
 
+/* A camera at 1, 2, 3 that is turned to look along -z, with this property of its lens. */
+static scene *load_fbx(const char *lens)
+{
+    static const char format[] =
+        "; FBX 7.4.0 project file\nFBXHeaderExtension: {\n FBXHeaderVersion: 1003\n "
+        "FBXVersion: 7400\n}\nObjects: {\n Geometry: 100, \"Geometry::A\", \"Mesh\" {\n  "
+        "Vertices: *9 {\n a: 0,0,0,1,0,0,0,1,0\n }\n  PolygonVertexIndex: *3 {\n a: "
+        "0,1,-3\n }\n  GeometryVersion: 124\n }\n Model: 200, \"Model::A\", \"Mesh\" {\n "
+        "Version: 232\n }\n NodeAttribute: 300, \"NodeAttribute::Cam\", \"Camera\" {\n "
+        "Properties70: {\n  P: %s\n }\n TypeFlags: \"Camera\"\n }\n Model: 400, "
+        "\"Model::Cam\", \"Camera\" {\n Version: 232\n Properties70: {\n  P: \"Lcl "
+        "Translation\", \"Lcl Translation\", \"\", \"A\",1,2,3\n  P: \"Lcl Rotation\", "
+        "\"Lcl "
+        "Rotation\", \"\", \"A\",0,90,0\n }\n }\n}\nConnections: {\n C: \"OO\",200,0\n "
+        "C: "
+        "\"OO\",100,200\n C: \"OO\",400,0\n C: \"OO\",300,400\n}\n";
+    char text[2000];
+    scene *s = NULL;
+    snprintf(text, sizeof text, format, lens);
+    assert_int_equal(scene_load(write_text("camera.fbx", text), &s, NULL), 0);
+    assert_int_equal(scene_camera_count(s), 1);
+    return s;
+}
+
+/* FBX cameras look along their +x. A focal length alone does not reach us. */
+static void test_fbx_camera(void **state)
+{
+    (void)state;
+    scene *s = load_fbx("\"FieldOfView\", \"FieldOfView\", \"\", \"A\",60");
+    const scene_camera *c = scene_camera_at(s, 0);
+    assert_string_equal(c->name, "Cam");
+    assert_true(fabs((double)c->hfov_rad - 3.14159265 / 3.0) < 1e-6);
+    for (int i = 0; i < 3; i++) {
+        const double ahead = c->view.target[i] - c->view.eye[i];
+        assert_true(fabs(c->view.eye[i] - (1.0 + i)) < 1e-6);
+        assert_true(i == 2 ? ahead < -0.1 : fabs(ahead) < 1e-6);
+    }
+    scene_free(s);
+    s = load_fbx("\"FocalLength\", \"Number\", \"\", \"A\",35");
+    c = scene_camera_at(s, 0);
+    assert_true(c->hfov_rad <= 0.0f && c->view.vfov_rad <= 0.0f);
+    scene_free(s);
+}
+
 /* Binary PLY cut in the middle of its faces. */
 static void test_truncated_ply(void **state)
 {
@@ -372,6 +416,7 @@ int main(void)
         cmocka_unit_test(test_normals_are_transformed),
         cmocka_unit_test(test_useless_normals_become_the_face),
         cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_fbx_camera),
         cmocka_unit_test(test_truncated_ply),
         cmocka_unit_test(test_builtin_names)};
     return cmocka_run_group_tests(tests, NULL, remove_files);

@@ -286,6 +286,15 @@ static int choose_camera(const view_settings *s, const scene *model, scene_view 
     if (!camera)
         return refuse_camera(s, model, r);
     *v = camera->view;
+    const bool has_lens =
+        v->projection != CRV_PERSPECTIVE || v->vfov_rad > 0.0f || camera->hfov_rad > 0.0f;
+    if (!has_lens && !s->vfov_deg.given && !s->ortho.given) {
+        report_error(r,
+                     "--camera: %s does not say the field of view of \"%s\" (its focal "
+                     "length is not read); add --vfov",
+                     s->model, camera->name);
+        return EXIT_FAILED;
+    }
     if (camera->hfov_rad > 0.0f)
         v->vfov_rad = vfov_of(s, (double)camera->hfov_rad);
     return EXIT_DONE;
