@@ -220,6 +220,133 @@ static void strides_are_honoured(void **state)
     fixture_free(&f);
 }
 
+/* A G-buffer of 8 x 1 on one set. */
+static crv_gbuffer *open_row(crv_isa isa, crv_context **context)
+{
+    crv_context_desc context_desc;
+    crv_gbuffer_desc desc;
+    crv_gbuffer *gbuffer = NULL;
+    const crv_camera camera = crv_camera_perspective(8, 1, 1);
+    crv_context_desc_init(&context_desc, sizeof context_desc);
+    context_desc.isa_mask = 1u << isa;
+    crv_gbuffer_desc_init(&desc, sizeof desc, 8, 1);
+    assert_int_equal(crv_context_create(&context_desc, context), CRV_OK);
+    assert_int_equal(crv_gbuffer_create(*context, &desc, &gbuffer), CRV_OK);
+    assert_int_equal(crv_gbuffer_set_camera(gbuffer, &camera), CRV_OK);
+    return gbuffer;
+}
+
+static void take_row(crv_gbuffer *gbuffer, const crv_texels *texels,
+                     const crv_depth_format *format, float out[8])
+{
+    const crv_image to = crv_image_packed(out, 8, 1, 1);
+    assert_int_equal(crv_gbuffer_set_depth_texels(gbuffer, 0, texels, format), CRV_OK);
+    assert_int_equal(crv_gbuffer_get_depth(gbuffer, 0, &to), CRV_OK);
+}
+
+/* IEEE 754-2008, table 3.5: 1, 3, the largest, the least normal and subnormal numbers;
+ * infinity, NaN and what is negative are background. Normals lie in four halves a pixel.
+ * All of them are exact. */
+static void check_halves(crv_gbuffer *gbuffer)
+{
+    static const uint16_t HALVES[8] = {0x3c00, 0x4200, 0x7bff, 0x0400,
+                                       0x0001, 0x7c00, 0x7e01, 0xc000};
+    static const float VALUES[8] = {1,        3,        65504,    0x1p-14f,
+                                    0x1p-24f, INFINITY, INFINITY, INFINITY};
+    static const float NORMAL[3] = {0, 0.6f, 0.8f}; /* of -0, 0.75, 1 */
+    float out[8], normals[8][3];
+    uint16_t four[8][4];
+    crv_texels from = crv_texels_packed(HALVES, CRV_TEXEL_HALF, 8, 1, 1);
+    take_row(gbuffer, &from, NULL, out);
+    assert_memory_equal(out, VALUES, sizeof out);
+    for (int i = 0; i < 8; i++)
+        memcpy(four[i], (uint16_t[4]){0x8000, 0x3a00, 0x3c00, 0x7e00}, sizeof four[i]);
+    from = crv_texels_packed(four, CRV_TEXEL_HALF, 8, 1, 4);
+    from.channels = 3;
+    assert_int_equal(crv_gbuffer_set_normals_texels(gbuffer, &from, CRV_NORMAL_VIEW),
+                     CRV_OK);
+    const crv_image to = crv_image_packed(normals[0], 8, 1, 3);
+    assert_int_equal(crv_gbuffer_get_normals(gbuffer, &to), CRV_OK);
+    for (int i = 0; i < 8; i++) {
+        for (int k = 0; k < 3; k++)
+            assert_float_equal(normals[i][k], i < 5 ? NORMAL[k] : 0, 1e-6);
+    }
+}
+
+/* A reversed buffer of 16 bits: d = near / v; 0 is background. Then signed millimetres,
+ * three numbers apart and at an odd address. */
+static void check_16_bits(crv_gbuffer *gbuffer)
+{
+    static const uint16_t BUFFER[8] = {65535, 0, 32768, 1, 13107, 65534, 2, 3};
+    static const crv_depth_format REVERSED = {CRV_DEPTH_REVERSED, 0.5f, INFINITY,
+                                              INFINITY};
+    float out[8];
+    unsigned char bytes[8 * 6 + 1];
+    crv_texels from = crv_texels_packed(BUFFER, CRV_TEXEL_UINT16, 8, 1, 1);
+    from.scale = 1 / 65535.0;
+    take_row(gbuffer, &from, &REVERSED, out);
+    assert_true(out[0] == 0.5f && isinf(out[1]));
+    for (int i = 2; i < 8; i++) /* two roundings to floats */
+        assert_float_equal(out[i] * BUFFER[i] / (0.5f * 65535), 1, 2e-7);
+    for (int i = 0; i < 8; i++) {
+        const int16_t mm = (int16_t)(i == 3 ? -7 : 1000 * i + 500);
+        memcpy(bytes + 1 + 6 * i, &mm, sizeof mm);
+    }
+    from = crv_texels_packed(bytes + 1, CRV_TEXEL_INT16, 8, 1, 1);
+    from.pixel_stride = 6;
+    from.scale = 1e-3;
+    take_row(gbuffer, &from, NULL, out);
+    for (int i = 0; i < 8; i++)
+        assert_true(i == 3 ? isinf(out[i]) : fabs((double)out[i] / (i + 0.5) - 1) < 2e-7);
+}
+
+static void pixels_of_other_types_are_taken(void **state)
+{
+    (void)state;
+    for (int isa = 0; crv_isa_name((crv_isa)isa); isa++) {
+        if (!(crv_isa_available() >> isa & 1))
+            continue;
+        crv_context *context = NULL;
+        crv_gbuffer *gbuffer = open_row((crv_isa)isa, &context);
+        check_halves(gbuffer);
+        check_16_bits(gbuffer);
+        crv_gbuffer_destroy(gbuffer);
+        crv_context_destroy(context);
+    }
+}
+
+static void texels_that_do_not_fit_are_refused(void **state)
+{
+    (void)state;
+    static const uint16_t HALVES[8] = {0x3c00};
+    const crv_texels good = crv_texels_packed(HALVES, CRV_TEXEL_HALF, 8, 1, 1);
+    crv_texels bad[6] = {good, good, good, good, good, good};
+    crv_context *context = NULL;
+    crv_gbuffer *gbuffer = open_row(CRV_ISA_SCALAR, &context);
+    bad[0].data = NULL;
+    bad[1].type = (crv_texel)6;
+    bad[2].width = 7;
+    bad[3].channels = 2;
+    bad[4].scale = NAN;
+    bad[5].offset = 1e300;
+    for (int i = 0; i < 6; i++)
+        assert_int_equal(crv_gbuffer_set_depth_texels(gbuffer, 0, &bad[i], NULL),
+                         CRV_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(crv_gbuffer_set_depth_texels(gbuffer, 0, NULL, NULL),
+                     CRV_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(crv_gbuffer_set_depth_texels(NULL, 0, &good, NULL),
+                     CRV_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(crv_gbuffer_set_depth_texels(gbuffer, 1, &good, NULL),
+                     CRV_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(crv_gbuffer_set_normals_texels(gbuffer, &good, CRV_NORMAL_VIEW),
+                     CRV_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(crv_gbuffer_set_normals_texels(gbuffer, NULL, CRV_NORMAL_VIEW),
+                     CRV_OK);
+    assert_int_equal(crv_gbuffer_set_depth_texels(gbuffer, 0, &good, NULL), CRV_OK);
+    crv_gbuffer_destroy(gbuffer);
+    crv_context_destroy(context);
+}
+
 /* Degrees between two unit vectors. */
 static double angle(const float *a, const float *b)
 {
@@ -404,6 +531,8 @@ int main(void)
         cmocka_unit_test(every_encoding_gives_the_same_image),
         cmocka_unit_test(a_background_threshold_is_kept),
         cmocka_unit_test(strides_are_honoured),
+        cmocka_unit_test(pixels_of_other_types_are_taken),
+        cmocka_unit_test(texels_that_do_not_fit_are_refused),
         cmocka_unit_test(normals_come_back_from_depth),
         cmocka_unit_test(reconstruction_does_not_cross_edges),
         cmocka_unit_test(world_space_normals_are_turned),

@@ -113,7 +113,7 @@ typedef struct crv_allocator {
 } crv_allocator;
 
 /* Who runs parallel loops. If run is NULL, OpenMP does, or, in a library that was built
- * without it, POSIX threads; without those, the calling thread. */
+ * without it, the library's own threads (WebAssembly: the calling thread). */
 typedef struct crv_parallel {
     /* Calls task(data, i) once for every i in [0, count), on any threads in any order,
      * and returns when all are done. Results do not depend on the order. */

@@ -157,6 +157,12 @@ CRV_API crv_status crv_gbuffer_set_depth(crv_gbuffer *gbuffer, int32_t layer,
                                          const crv_const_image *image,
                                          const crv_depth_format *format);
 
+/* The same for pixels of another type: half floats, 16-bit depth buffers (scale 1 /
+ * 65535.0). scale and offset are rounded to floats. */
+CRV_API crv_status crv_gbuffer_set_depth_texels(crv_gbuffer *gbuffer, int32_t layer,
+                                                const crv_texels *texels,
+                                                const crv_depth_format *format);
+
 /*
  * Takes the normals of layer 0. image: three channels, the G-buffer's size, any length
  * but zero; read during the call only. NULL, or no call at all: normals are reconstructed
@@ -167,6 +173,12 @@ CRV_API crv_status crv_gbuffer_set_depth(crv_gbuffer *gbuffer, int32_t layer,
 CRV_API crv_status crv_gbuffer_set_normals(crv_gbuffer *gbuffer,
                                            const crv_const_image *image,
                                            crv_normal_space space);
+
+/* The same for pixels of another type. channels: 3; of pixels with four, leave
+ * pixel_stride as crv_texels_packed() sets it for four. */
+CRV_API crv_status crv_gbuffer_set_normals_texels(crv_gbuffer *gbuffer,
+                                                  const crv_texels *texels,
+                                                  crv_normal_space space);
 
 /*
  * An implicit surface in view space: the value at a point, >= 0 outside and on the

@@ -89,7 +89,7 @@ static inline const float *crv_const_image_at(const crv_const_image *image, int3
                                          + (ptrdiff_t)c * image->channel_stride);
 }
 
-/* The types of pixels that crv_image_convert() takes. */
+/* The types of pixels that crv_image_convert() and G-buffers take. */
 typedef enum crv_texel {
     CRV_TEXEL_FLOAT = 0,
     CRV_TEXEL_DOUBLE = 1,

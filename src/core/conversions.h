@@ -26,15 +26,22 @@ typedef struct crv__depth_map {
     bool is_linear;
 } crv__depth_map;
 
+/* A row of the host's pixels. A number v stands for v * scale + offset, computed in
+ * floats; v itself if scale is 1 and offset 0. */
+typedef struct crv__texel_row {
+    const void *at; /* the first pixel */
+    crv_texel type;
+    ptrdiff_t stride, channel; /* bytes from a pixel, or a component, to the next */
+    float scale, offset;
+} crv__texel_row;
+
 typedef struct crv__conversions {
-    /* Planar depth of the pixels from (0, y) on, to out[0 .. count); `stride` is in
-     * floats. */
-    void (*depth_row)(const crv__depth_map *map, const float *from, ptrdiff_t stride,
-                      int32_t y, int32_t count, float *out);
-    /* rotation (row by row) * v for the row's pixels, to out[3][0 .. count); a component
-     * is `channel` floats after the one before, a pixel `stride` floats. */
-    void (*rotated_row)(const float rotation[9], const float *from, ptrdiff_t stride,
-                        ptrdiff_t channel, int32_t count, float *const out[3]);
+    /* Planar depth of the pixels from (0, y) on, to out[0 .. count). */
+    void (*depth_row)(const crv__depth_map *map, const crv__texel_row *from, int32_t y,
+                      int32_t count, float *out);
+    /* rotation (row by row) * v for the row's pixels, to out[3][0 .. count). */
+    void (*rotated_row)(const float rotation[9], const crv__texel_row *from,
+                        int32_t count, float *const out[3]);
     /* Turns row y of normal[3] into unit normals that face the camera, reconstructed from
      * depth where there are none; has_normals 0: there are none at all. */
     void (*normals_row)(const crv__params *params, const crv__plane *depth,

@@ -13,7 +13,7 @@ crv_depth_format crv_depth_format_planar(void)
 
 typedef struct depth_job {
     crv_gbuffer *gbuffer;
-    const crv_const_image *image;
+    const crv_texels *texels;
     int32_t layer;
     crv__depth_map map;
 } depth_job;
@@ -63,11 +63,11 @@ float crv__depth_map_apply(const crv__depth_map *map, int32_t x, int32_t y, floa
     return d > 0 && d < INFINITY ? d : INFINITY; /* NaN fails both */
 }
 
-void crv__depth_row(const crv__depth_map *map, const float *from, ptrdiff_t stride,
-                    int32_t y, int32_t count, float *out)
+void crv__depth_row(const crv__depth_map *map, const crv__texel_row *from, int32_t y,
+                    int32_t count, float *out)
 {
     for (int32_t x = 0; x < count; x++)
-        out[x] = crv__depth_map_apply(map, x, y, from[x * stride]);
+        out[x] = crv__depth_map_apply(map, x, y, crv__texel_at(from, x, 0));
 }
 
 static void convert_row(void *data, uint32_t row)
@@ -75,10 +75,9 @@ static void convert_row(void *data, uint32_t row)
     const depth_job *job = data;
     const int32_t y = (int32_t)row;
     float *out = crv__plane_at(&job->gbuffer->depth[job->layer], 0, y);
-    job->gbuffer->context->conversions->depth_row(
-        &job->map, crv_const_image_at(job->image, 0, y, 0),
-        job->image->pixel_stride / (ptrdiff_t)sizeof(float), y, job->gbuffer->desc.width,
-        out);
+    const crv__texel_row from = crv__texels_row(job->texels, y);
+    job->gbuffer->context->conversions->depth_row(&job->map, &from, y,
+                                                  job->gbuffer->desc.width, out);
 }
 
 static bool is_reversed(crv_depth_encoding encoding)
@@ -178,16 +177,17 @@ typedef struct depth_census {
     int32_t at_ends, beyond_one;        /* exactly 0 or 1; finite and above 1 */
 } depth_census;
 
-static depth_census take_census(const crv__depth_map *map, const crv_const_image *image)
+static depth_census take_census(const crv__depth_map *map, const crv_texels *texels)
 {
     const bool between = is_between_planes(map->format.encoding)
                          || map->format.encoding == CRV_DEPTH_LOGARITHMIC;
-    const int32_t step_x = (image->width + LOOKED_AT - 1) / LOOKED_AT;
-    const int32_t step_y = (image->height + LOOKED_AT - 1) / LOOKED_AT;
+    const int32_t step_x = (texels->width + LOOKED_AT - 1) / LOOKED_AT;
+    const int32_t step_y = (texels->height + LOOKED_AT - 1) / LOOKED_AT;
     depth_census c = {.total = 0};
-    for (int32_t y = step_y / 2; y < image->height; y += step_y) {
-        for (int32_t x = step_x / 2; x < image->width; x += step_x) {
-            const float v = *crv_const_image_at(image, x, y, 0);
+    for (int32_t y = step_y / 2; y < texels->height; y += step_y) {
+        const crv__texel_row row = crv__texels_row(texels, y);
+        for (int32_t x = step_x / 2; x < texels->width; x += step_x) {
+            const float v = crv__texel_at(&row, x, 0);
             c.total++;
             c.background += !(crv__depth_map_apply(map, x, y, v) < INFINITY);
             if (!isfinite(v))
@@ -211,7 +211,7 @@ static void doubt_depth(crv_gbuffer *g, const depth_job *job)
 {
     if (g->depth_doubted || job->layer > 0)
         return;
-    const depth_census c = take_census(&job->map, job->image);
+    const depth_census c = take_census(&job->map, job->texels);
     const crv_logger *logger = &g->context->logger;
     const bool is_distance = job->map.format.encoding == CRV_DEPTH_PLANAR
                              || job->map.format.encoding == CRV_DEPTH_RADIAL;
@@ -234,24 +234,23 @@ static void doubt_depth(crv_gbuffer *g, const depth_job *job)
         g->depth_doubted = false;
 }
 
-crv_status crv_gbuffer_set_depth(crv_gbuffer *g, int32_t layer,
-                                 const crv_const_image *image,
-                                 const crv_depth_format *format)
+static crv_status check_layer(const crv_gbuffer *g, int32_t layer)
 {
-    if (!g)
-        return CRV_ERROR_INVALID_ARGUMENT;
-    const crv_logger *logger = &g->context->logger;
-    crv_status status = crv__gbuffer_need_camera(g, "depth");
+    const crv_status status = crv__gbuffer_need_camera(g, "depth");
     if (status)
         return status;
     if (layer < 0 || layer >= g->desc.layers)
-        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT, "depth: layer %d of %d",
-                         layer, g->desc.layers);
-    status = crv__input_check(logger, "depth", image, g->desc.width, g->desc.height, 1);
-    if (status)
-        return status;
-    depth_job job = {.gbuffer = g, .image = image, .layer = layer};
-    status = crv__depth_map_init(&job.map, logger, &g->camera, format);
+        return crv__fail(&g->context->logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "depth: layer %d of %d", layer, g->desc.layers);
+    return CRV_OK;
+}
+
+static crv_status take_depth(crv_gbuffer *g, int32_t layer, const crv_texels *texels,
+                             const crv_depth_format *format)
+{
+    depth_job job = {.gbuffer = g, .texels = texels, .layer = layer};
+    const crv_status status =
+        crv__depth_map_init(&job.map, &g->context->logger, &g->camera, format);
     if (status)
         return status;
     doubt_depth(g, &job);
@@ -260,6 +259,35 @@ crv_status crv_gbuffer_set_depth(crv_gbuffer *g, int32_t layer,
     if (layer == 0)
         g->normals_ready = 0; /* those made from the depth before are out of date */
     return CRV_OK;
+}
+
+crv_status crv_gbuffer_set_depth(crv_gbuffer *g, int32_t layer,
+                                 const crv_const_image *image,
+                                 const crv_depth_format *format)
+{
+    if (!g)
+        return CRV_ERROR_INVALID_ARGUMENT;
+    crv_status status = check_layer(g, layer);
+    if (status == CRV_OK)
+        status = crv__input_check(&g->context->logger, "depth", image, g->desc.width,
+                                  g->desc.height, 1);
+    if (status)
+        return status;
+    const crv_texels texels = crv__texels_of(image);
+    return take_depth(g, layer, &texels, format);
+}
+
+crv_status crv_gbuffer_set_depth_texels(crv_gbuffer *g, int32_t layer,
+                                        const crv_texels *texels,
+                                        const crv_depth_format *format)
+{
+    if (!g)
+        return CRV_ERROR_INVALID_ARGUMENT;
+    crv_status status = check_layer(g, layer);
+    if (status == CRV_OK)
+        status = crv__texels_check(&g->context->logger, "depth", texels, g->desc.width,
+                                   g->desc.height, 1);
+    return status ? status : take_depth(g, layer, texels, format);
 }
 
 typedef struct convert_job {

@@ -140,7 +140,7 @@ crv_status crv_gbuffer_set_camera(crv_gbuffer *g, const crv_camera *camera)
 
 typedef struct normals_job {
     crv_gbuffer *gbuffer;
-    const crv_const_image *image;
+    const crv_texels *texels;
     float rotation[9];
 } normals_job;
 
@@ -148,14 +148,12 @@ static void take_normals_row(void *data, uint32_t row)
 {
     const normals_job *job = data;
     const int32_t y = (int32_t)row;
-    const crv_const_image *image = job->image;
+    const crv__texel_row from = crv__texels_row(job->texels, y);
     float *out[3];
     for (int i = 0; i < 3; i++)
         out[i] = crv__plane_at(&job->gbuffer->normal[i], 0, y);
-    job->gbuffer->context->conversions->rotated_row(
-        job->rotation, crv_const_image_at(image, 0, y, 0),
-        image->pixel_stride / (ptrdiff_t)sizeof(float),
-        image->channel_stride / (ptrdiff_t)sizeof(float), job->gbuffer->desc.width, out);
+    job->gbuffer->context->conversions->rotated_row(job->rotation, &from,
+                                                    job->gbuffer->desc.width, out);
 }
 
 crv_status crv__gbuffer_need_camera(const crv_gbuffer *g, const char *what)
@@ -166,32 +164,51 @@ crv_status crv__gbuffer_need_camera(const crv_gbuffer *g, const char *what)
                      "%s: no camera yet; call crv_gbuffer_set_camera() first", what);
 }
 
-crv_status crv_gbuffer_set_normals(crv_gbuffer *g, const crv_const_image *image,
-                                   crv_normal_space space)
+/* texels NULL: none. */
+static crv_status take_normals(crv_gbuffer *g, const crv_texels *texels,
+                               crv_normal_space space)
 {
     static const float IDENTITY[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-    if (!g)
-        return CRV_ERROR_INVALID_ARGUMENT;
-    crv_status status = crv__gbuffer_need_camera(g, "gbuffer");
-    if (status)
-        return status;
-    if (image) {
-        if (space != CRV_NORMAL_VIEW && space != CRV_NORMAL_WORLD)
-            return crv__fail(&g->context->logger, CRV_ERROR_INVALID_ARGUMENT,
-                             "normals: space %d is neither view nor world", (int)space);
-        status = crv__input_check(&g->context->logger, "normals", image, g->desc.width,
-                                  g->desc.height, 3);
-        if (status)
-            return status;
-        normals_job job = {.gbuffer = g, .image = image};
+    if (texels && space != CRV_NORMAL_VIEW && space != CRV_NORMAL_WORLD)
+        return crv__fail(&g->context->logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "normals: space %d is neither view nor world", (int)space);
+    if (texels) {
+        normals_job job = {.gbuffer = g, .texels = texels};
         memcpy(job.rotation,
                space == CRV_NORMAL_WORLD ? g->camera.world_to_view : IDENTITY,
                sizeof job.rotation);
         crv__run_rows(g->context, g->desc.height, take_normals_row, &job);
     }
-    g->has_normals = image ? 1 : 0;
+    g->has_normals = texels ? 1 : 0;
     g->normals_ready = 0;
     return CRV_OK;
+}
+
+crv_status crv_gbuffer_set_normals(crv_gbuffer *g, const crv_const_image *image,
+                                   crv_normal_space space)
+{
+    if (!g)
+        return CRV_ERROR_INVALID_ARGUMENT;
+    crv_status status = crv__gbuffer_need_camera(g, "gbuffer");
+    if (status == CRV_OK && image)
+        status = crv__input_check(&g->context->logger, "normals", image, g->desc.width,
+                                  g->desc.height, 3);
+    if (status)
+        return status;
+    const crv_texels texels = image ? crv__texels_of(image) : (crv_texels){.data = NULL};
+    return take_normals(g, image ? &texels : NULL, space);
+}
+
+crv_status crv_gbuffer_set_normals_texels(crv_gbuffer *g, const crv_texels *texels,
+                                          crv_normal_space space)
+{
+    if (!g)
+        return CRV_ERROR_INVALID_ARGUMENT;
+    crv_status status = crv__gbuffer_need_camera(g, "gbuffer");
+    if (status == CRV_OK && texels)
+        status = crv__texels_check(&g->context->logger, "normals", texels, g->desc.width,
+                                   g->desc.height, 3);
+    return status ? status : take_normals(g, texels, space);
 }
 
 void crv__camera_params(const crv_gbuffer_desc *desc, const crv_camera *camera,

@@ -43,6 +43,17 @@ crv_status crv__gbuffer_need_camera(const crv_gbuffer *gbuffer, const char *what
 /* NOT_READY with a line where camera or depth are missing; else makes normals[] ready. */
 crv_status crv__gbuffer_prepare(crv_gbuffer *gbuffer);
 
+/* The host's pixels (texels.c): floats as such, a row, and a number of it. */
+crv_texels crv__texels_of(const crv_const_image *image);
+crv__texel_row crv__texels_row(const crv_texels *texels, int32_t y);
+float crv__texel_at(const crv__texel_row *row, int32_t x, int32_t channel);
+
+/* INVALID_ARGUMENT with a line that begins with `what` unless the texels have this size
+ * and number of channels. */
+crv_status crv__texels_check(const crv_logger *logger, const char *what,
+                             const crv_texels *texels, int32_t width, int32_t height,
+                             int32_t channels);
+
 /* Fills the members of params that describe buffers and camera. */
 void crv__camera_params(const crv_gbuffer_desc *desc, const crv_camera *camera,
                         crv__params *params);
@@ -55,10 +66,10 @@ void crv__height_field_release(crv_gbuffer *gbuffer);
 
 /* The specification of crv__conversions: depth_row (depth.c), rotated_row and normals_row
  * (normals.c). */
-void crv__depth_row(const crv__depth_map *map, const float *from, ptrdiff_t stride,
-                    int32_t y, int32_t count, float *out);
-void crv__rotated_row(const float rotation[9], const float *from, ptrdiff_t stride,
-                      ptrdiff_t channel, int32_t count, float *const out[3]);
+void crv__depth_row(const crv__depth_map *map, const crv__texel_row *from, int32_t y,
+                    int32_t count, float *out);
+void crv__rotated_row(const float rotation[9], const crv__texel_row *from, int32_t count,
+                      float *const out[3]);
 void crv__normals_row(const crv__params *params, const crv__plane *depth,
                       const crv__plane *normal, int32_t has_normals, int32_t y);
 

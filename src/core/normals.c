@@ -83,14 +83,15 @@ static crv__vec3 face_camera(const crv__params *p, const crv__plane *depth, int3
     return crv__dot(bent, view) > 0 ? bent : view;
 }
 
-void crv__rotated_row(const float rotation[9], const float *from, ptrdiff_t stride,
-                      ptrdiff_t channel, int32_t count, float *const out[3])
+void crv__rotated_row(const float rotation[9], const crv__texel_row *from, int32_t count,
+                      float *const out[3])
 {
     for (int32_t x = 0; x < count; x++) {
-        const float *v = from + x * stride;
+        const float v[3] = {crv__texel_at(from, x, 0), crv__texel_at(from, x, 1),
+                            crv__texel_at(from, x, 2)};
         for (int i = 0; i < 3; i++)
-            out[i][x] = rotation[3 * i] * v[0] + rotation[3 * i + 1] * v[channel]
-                        + rotation[3 * i + 2] * v[2 * channel];
+            out[i][x] = rotation[3 * i] * v[0] + rotation[3 * i + 1] * v[1]
+                        + rotation[3 * i + 2] * v[2];
     }
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Pixels of other types than float, converted to it. */
-#include "core/image.h"
+#include "core/gbuffer.h"
 
 #include "base/log.h"
 
@@ -66,6 +66,60 @@ crv_texels crv_texels_packed(const void *data, crv_texel type, int32_t width,
                         .pixel_stride = size * channels,
                         .channel_stride = size,
                         .scale = 1};
+}
+
+crv_texels crv__texels_of(const crv_const_image *image)
+{
+    return (crv_texels){.data = image->data,
+                        .type = CRV_TEXEL_FLOAT,
+                        .width = image->width,
+                        .height = image->height,
+                        .channels = image->channels,
+                        .row_stride = image->row_stride,
+                        .pixel_stride = image->pixel_stride,
+                        .channel_stride = image->channel_stride,
+                        .scale = 1};
+}
+
+crv__texel_row crv__texels_row(const crv_texels *texels, int32_t y)
+{
+    return (crv__texel_row){.at = (const char *)texels->data + y * texels->row_stride,
+                            .type = texels->type,
+                            .stride = texels->pixel_stride,
+                            .channel = texels->channel_stride,
+                            .scale = (float)texels->scale,
+                            .offset = (float)texels->offset};
+}
+
+float crv__texel_at(const crv__texel_row *row, int32_t x, int32_t channel)
+{
+    const float v = (float)load(row->type, (const char *)row->at + x * row->stride
+                                               + channel * row->channel);
+    return row->scale == 1 && row->offset == 0 ? v : v * row->scale + row->offset;
+}
+
+crv_status crv__texels_check(const crv_logger *logger, const char *what,
+                             const crv_texels *texels, int32_t width, int32_t height,
+                             int32_t channels)
+{
+    if (!texels || !texels->data || size_of(texels->type) == 0)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "%s: texels are NULL, without data or of an unknown type; begin "
+                         "with crv_texels_packed()",
+                         what);
+    if (texels->width != width || texels->height != height
+        || texels->channels != channels)
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "%s: texels are %d x %d with %d channels, expected %d x %d with "
+                         "%d",
+                         what, texels->width, texels->height, texels->channels, width,
+                         height, channels);
+    if (!isfinite((float)texels->scale) || !isfinite((float)texels->offset))
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "%s: scale %g or offset %g does not fit a float; without them "
+                         "they are 1 and 0",
+                         what, texels->scale, texels->offset);
+    return CRV_OK;
 }
 
 crv_status crv_image_convert(const crv_texels *from, const crv_image *to,

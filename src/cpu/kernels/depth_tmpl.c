@@ -6,7 +6,7 @@
  */
 #include "core/conversions.h"
 #include "core/frame.h"
-#include "cpu/simd/vector.h"
+#include "cpu/kernels/texels.h"
 
 enum { CHUNK = 256 };
 
@@ -104,17 +104,20 @@ static void convert(const crv__depth_map *map, const float *v, int32_t x, int32_
     }
 }
 
-void CRV__NAME(depth_row)(const crv__depth_map *map, const float *from, ptrdiff_t stride,
+void CRV__NAME(depth_row)(const crv__depth_map *map, const crv__texel_row *from,
                           int32_t y, int32_t count, float *out);
-void CRV__NAME(depth_row)(const crv__depth_map *map, const float *from, ptrdiff_t stride,
+void CRV__NAME(depth_row)(const crv__depth_map *map, const crv__texel_row *from,
                           int32_t y, int32_t count, float *out)
 {
+    const bool direct = crv__row_is_plain(from) && from->stride == sizeof(float);
     float chunk[CHUNK];
     for (int32_t x = 0; x < count; x += CHUNK) {
         const int32_t n = count - x < CHUNK ? count - x : CHUNK;
-        const float *v = from + x * stride;
-        for (int32_t i = 0; i < n && stride != 1; i++)
-            chunk[i] = v[i * stride];
-        convert(map, stride == 1 ? v : chunk, x, y, n, out + x);
+        const char *at = (const char *)from->at + x * from->stride;
+        if (!direct) {
+            crv__texels_take(at, from->type, from->stride, n, chunk, 1);
+            crv__texels_scale(from, chunk, n);
+        }
+        convert(map, direct ? (const float *)(const void *)at : chunk, x, y, n, out + x);
     }
 }

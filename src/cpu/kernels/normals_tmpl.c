@@ -2,6 +2,7 @@
 /* core/normals.c for the lanes of a vector: the same operations in the same order, and to
  * the bit the same numbers. */
 #include "core/conversions.h"
+#include "cpu/kernels/texels.h"
 #include "cpu/kernels/window.h"
 
 enum { CHUNK = 256 };
@@ -112,36 +113,58 @@ CRV__INLINE crv__v3 given(const crv__plane *normal, int32_t x, int32_t y)
                                 crv__row_read(&normal[2], x, y, &inside)});
 }
 
-/* A loop that the compiler turns into vectors. */
-static void rotated(const float m[9], const float *restrict v, int32_t count,
-                    float *restrict x, float *restrict y, float *restrict z)
+/* A loop that the compiler turns into vectors; a pixel has `step` numbers. */
+CRV__INLINE void rotated(const float m[9], const float *restrict v, int32_t step,
+                         int32_t count, float *restrict x, float *restrict y,
+                         float *restrict z)
 {
     const float m0 = m[0], m1 = m[1], m2 = m[2], m3 = m[3], m4 = m[4], m5 = m[5],
                 m6 = m[6], m7 = m[7], m8 = m[8];
     for (int32_t i = 0; i < count; i++) {
-        const float a = v[3 * i], b = v[3 * i + 1], c = v[3 * i + 2];
+        const float a = v[step * i], b = v[step * i + 1], c = v[step * i + 2];
         x[i] = m0 * a + m1 * b + m2 * c;
         y[i] = m3 * a + m4 * b + m5 * c;
         z[i] = m6 * a + m7 * b + m8 * c;
     }
 }
 
-void CRV__NAME(rotated_row)(const float rotation[9], const float *from, ptrdiff_t stride,
-                            ptrdiff_t channel, int32_t count, float *const out[3]);
-void CRV__NAME(rotated_row)(const float rotation[9], const float *from, ptrdiff_t stride,
-                            ptrdiff_t channel, int32_t count, float *const out[3])
+static void rotated3(const float m[9], const float *v, int32_t count, float *x, float *y,
+                     float *z)
 {
-    const int packed = stride == 3 && channel == 1;
-    float chunk[3 * CHUNK];
+    rotated(m, v, 3, count, x, y, z);
+}
+
+static void rotated4(const float m[9], const float *v, int32_t count, float *x, float *y,
+                     float *z)
+{
+    rotated(m, v, 4, count, x, y, z);
+}
+
+void CRV__NAME(rotated_row)(const float rotation[9], const crv__texel_row *from,
+                            int32_t count, float *const out[3]);
+void CRV__NAME(rotated_row)(const float rotation[9], const crv__texel_row *from,
+                            int32_t count, float *const out[3])
+{
+    /* Three or four numbers a pixel, side by side: a row of numbers. */
+    const ptrdiff_t size = crv__texel_size(from->type);
+    const int32_t step = from->stride == 4 * size ? 4 : 3;
+    const bool packed = from->channel == size && from->stride == step * size;
+    const bool direct = packed && crv__row_is_plain(from);
+    float chunk[4 * CHUNK];
     for (int32_t x = 0; x < count; x += CHUNK) {
         const int32_t n = count - x < CHUNK ? count - x : CHUNK;
-        const float *v = from + x * stride;
-        for (int32_t i = 0; i < n && !packed; i++) {
-            chunk[3 * i] = v[i * stride];
-            chunk[3 * i + 1] = v[i * stride + channel];
-            chunk[3 * i + 2] = v[i * stride + 2 * channel];
-        }
-        rotated(rotation, packed ? v : chunk, n, out[0] + x, out[1] + x, out[2] + x);
+        const int32_t numbers = packed ? step * n - (step - 3) : 3 * n;
+        const char *at = (const char *)from->at + x * from->stride;
+        if (packed && !direct)
+            crv__texels_take(at, from->type, size, numbers, chunk, 1);
+        for (int i = 0; i < 3 && !packed; i++)
+            crv__texels_take(at + i * from->channel, from->type, from->stride, n,
+                             chunk + i, 3);
+        if (!direct)
+            crv__texels_scale(from, chunk, numbers);
+        const float *v = direct ? (const float *)(const void *)at : chunk;
+        (packed && step == 4 ? rotated4 : rotated3)(rotation, v, n, out[0] + x,
+                                                    out[1] + x, out[2] + x);
     }
 }
 

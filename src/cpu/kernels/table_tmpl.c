@@ -19,9 +19,9 @@
 #undef CRV__DEINTERLEAVED
 
 void CRV__NAME(deinterleave)(const crv__frame *, const crv__deinterleaved *, int32_t);
-void CRV__NAME(depth_row)(const crv__depth_map *, const float *, ptrdiff_t, int32_t,
+void CRV__NAME(depth_row)(const crv__depth_map *, const crv__texel_row *, int32_t,
                           int32_t, float *);
-void CRV__NAME(rotated_row)(const float *, const float *, ptrdiff_t, ptrdiff_t, int32_t,
+void CRV__NAME(rotated_row)(const float *, const crv__texel_row *, int32_t,
                             float *const *);
 void CRV__NAME(normals_row)(const crv__params *, const crv__plane *, const crv__plane *,
                             int32_t, int32_t);
