@@ -13,7 +13,7 @@
 
 int estimate_open(estimator *e, const common_settings *common, report *r)
 {
-    *e = (estimator){0};
+    *e = (estimator){.on_gpu = common->device && strcmp(common->device, "cpu") != 0};
 #ifdef _OPENMP
     /* Files are packed and unpacked by as many. */
     if (common->threads.value > 0)

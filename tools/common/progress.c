@@ -27,10 +27,15 @@ static void describe_time(double seconds, char *out, size_t size)
         snprintf(out, size, "%ld s", whole);
 }
 
+bool progress_is_long(double seconds)
+{
+    return seconds > LONG_SECONDS;
+}
+
 void progress_announce(report *r, const char *name, double seconds)
 {
     char time[64];
-    if (!(seconds > LONG_SECONDS))
+    if (!progress_is_long(seconds))
         return;
     describe_time(seconds, time, sizeof time);
     report_info(r, "%s: about %s", name, time);

@@ -17,6 +17,9 @@ typedef struct progress {
 } progress;
 
 /* from: what was done before. */
+/* Whether work of so many seconds is told of. */
+bool progress_is_long(double seconds);
+
 /* Tells of work that is about to begin if it will take more than ten seconds:
  * "compare: about 21 s". */
 void progress_announce(report *r, const char *name, double seconds);
