@@ -104,6 +104,7 @@ static void add_part(loader *l, const struct aiMesh *part, const transform *t)
         l->doubts.posed |= doubts.posed;
         l->doubts.rounded |= doubts.rounded;
         l->doubts.holes |= doubts.holes;
+        l->doubts.morphed |= doubts.morphed;
         const mesh_part triangles = {.vertex_count = part->mNumVertices,
                                      .triangle_count = triangle_count,
                                      .positions = &part->mVertices[0].x,

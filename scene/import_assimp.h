@@ -22,7 +22,7 @@ bool import_assimp_find(const struct aiNode *node, const struct aiString *name,
 
 /* import_assimp_check.c: what a mesh means and we do not show. */
 typedef struct import_doubts {
-    bool posed, rounded, holes;
+    bool posed, rounded, holes, morphed;
 } import_doubts;
 
 import_doubts import_assimp_doubts(const struct aiScene *file, const struct aiMesh *part,

@@ -71,6 +71,7 @@ import_doubts import_assimp_doubts(const struct aiScene *file, const struct aiMe
         .posed = is_posed(part, node, file->mRootNode, root),
         .rounded = is_rounded(part),
         .holes = has_holes(file, part),
+        .morphed = part->mNumAnimMeshes > 0,
     };
 }
 
@@ -81,6 +82,10 @@ void import_assimp_tell(const import_doubts *d, const char *path, const crv_logg
             log, CRV_LOG_WARNING, path,
             "has a skin that poses it otherwise than its vertices are stored, which is "
             "how it is shown; export it as glTF to have the pose");
+    if (d->morphed)
+        scene_log(log, CRV_LOG_WARNING, path,
+                  "has morph targets, which this format's reader does not apply; export "
+                  "it as glTF to have them");
     if (d->rounded)
         scene_log(
             log, CRV_LOG_WARNING, path,

@@ -369,6 +369,37 @@ static void test_fbx_camera(void **state)
     scene_free(s);
 }
 
+static void count_morphs(void *user, crv_log_level level, const char *line)
+{
+    if (level == CRV_LOG_WARNING && strstr(line, "morph targets"))
+        ++*(int *)user;
+}
+
+static void test_morph_targets_are_told(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "; FBX 7.4.0 project file\nFBXHeaderExtension: {\n FBXHeaderVersion: 1003\n "
+        "FBXVersion: 7400\n}\nObjects: {\n Geometry: 100, \"Geometry::A\", \"Mesh\" {\n  "
+        "Vertices: *9 {\n a: 0,0,0,1,0,0,0,1,0\n }\n  PolygonVertexIndex: *3 {\n a: "
+        "0,1,-3\n }\n  GeometryVersion: 124\n }\n Geometry: 101, \"Geometry::S\", "
+        "\"Shape\" {\n Version: 100\n Indexes: *1 {\n a: 2\n }\n Vertices: *3 {\n a: "
+        "0,0,1\n "
+        "}\n Normals: *3 {\n a: 0,0,0\n }\n }\n Deformer: 500, \"Deformer::B\", "
+        "\"BlendShape\" {\n Version: 101\n }\n Deformer: 501, \"SubDeformer::C\", "
+        "\"BlendShapeChannel\" {\n Version: 100\n DeformPercent: 0\n FullWeights: *1 {\n "
+        "a: "
+        "100\n }\n }\n Model: 200, \"Model::A\", \"Mesh\" {\n Version: 232\n }\n}\n"
+        "Connections: {\n C: \"OO\",200,0\n C: \"OO\",100,200\n C: \"OO\",500,100\n C: "
+        "\"OO\",501,500\n C: \"OO\",101,501\n}\n";
+    int told = 0;
+    const crv_logger log = {count_morphs, &told};
+    scene *s = NULL;
+    assert_int_equal(scene_load(write_text("morph.fbx", text), &s, &log), 0);
+    assert_int_equal(told, 1);
+    scene_free(s);
+}
+
 /* Binary PLY cut in the middle of its faces. */
 static void test_truncated_ply(void **state)
 {
@@ -417,6 +448,7 @@ int main(void)
         cmocka_unit_test(test_useless_normals_become_the_face),
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_fbx_camera),
+        cmocka_unit_test(test_morph_targets_are_told),
         cmocka_unit_test(test_truncated_ply),
         cmocka_unit_test(test_builtin_names)};
     return cmocka_run_group_tests(tests, NULL, remove_files);

@@ -7,17 +7,15 @@
 #include "camera.h"
 #include "depth.h"
 #include "evidence.h"
-#include "halves.h"
 #include "internal.h"
 #include "mixed.h"
 #include "names.h"
 #include "normals.h"
 #include "positions.h"
-#include "trial.h"
+#include "read.h"
+#include "settle_depth.h"
 #include "views.h"
 
-/* Blender writes this if a ray met nothing; no renderer writes more for a surface. */
-static const float usual_background = 1e10f;
 static const float pi = 3.14159265358979f;
 
 static int check_request(const char *path, const io_passes_request *request,
@@ -45,66 +43,6 @@ static int check_request(const char *path, const io_passes_request *request,
                         "both a field of view and an orthographic view height are given; "
                         "give one of them");
     return 0;
-}
-
-static bool same_window(const io_image *a, const io_image *b)
-{
-    return a->width == b->width && a->height == b->height && a->data_x == b->data_x
-           && a->data_y == b->data_y;
-}
-
-/* For files whose parts were cropped one by one: depth decides the window. */
-static int read_apart(const char *path, const char *const *names, int32_t layers,
-                      int32_t count, io_image *out, const crv_logger *log)
-{
-    io_image depth = {0}, normals = {0}, both = {0};
-    if (io_read(path, names, layers, &depth, log))
-        return -1;
-    int result = io_read(path, names + layers, count - layers, &normals, log);
-    if (!result)
-        result = io_image_init(&both, depth.width, depth.height, names, count, log);
-    if (!result) {
-        io_channel *channels = both.channels;
-        both = depth;
-        both.channels = channels;
-        both.channel_count = count;
-        for (int32_t i = 0; i < count; i++) {
-            const io_image *from = i < layers ? &depth : &normals;
-            /* The rest stays zero, which is "no normal here". */
-            io_copy_window(from, from->channels[i < layers ? i : i - layers].data, &both,
-                           channels[i].data);
-        }
-        if (!same_window(&depth, &normals))
-            io__info(log, path,
-                     "normals lie in another data window than depth; they are "
-                     "used where they overlap");
-        *out = both;
-    }
-    io_image_free(&depth);
-    io_image_free(&normals);
-    return result;
-}
-
-/* How many channels of the image depth or positions take. */
-static int32_t depth_channels(const io__pass_names *chosen)
-{
-    return chosen->position[0] ? 3 : chosen->layers;
-}
-
-static int read_passes(const char *path, const io__pass_names *chosen, io_image *out,
-                       const crv_logger *log)
-{
-    const char *names[CRV_MAX_LAYERS + 3];
-    int32_t count = depth_channels(chosen);
-    memcpy(names, chosen->position[0] ? chosen->position : chosen->depth,
-           (size_t)count * sizeof *names);
-    if (!chosen->normal[0])
-        return io_read(path, names, count, out, log);
-    for (int c = 0; c < 3; c++)
-        names[count++] = chosen->normal[c];
-    if (!io_read(path, names, count, out, NULL))
-        return 0;
-    return read_apart(path, names, depth_channels(chosen), count, out, log);
 }
 
 static crv_image view_of(const io_image *image, int32_t first, int32_t channels)
@@ -165,75 +103,6 @@ static int set_desc(const char *path, const io_passes_request *request,
     return 0;
 }
 
-static bool is_distance(crv_depth_encoding encoding)
-{
-    return encoding == CRV_DEPTH_PLANAR || encoding == CRV_DEPTH_RADIAL;
-}
-
-/* Depth along -z, as view space has it, is positive depth. */
-static void negate_depth(const char *path, io_frame *frame, const crv_logger *log)
-{
-    for (int32_t i = 0; i < frame->desc.layers; i++) {
-        float *data = frame->depth[i].data;
-        for (size_t k = 0; k < (size_t)frame->desc.width * (size_t)frame->desc.height;
-             k++)
-            data[k] = -data[k];
-    }
-    io__info(log, path,
-             "depth is negative everywhere, as z of view space; it is negated");
-}
-
-/* Steps of half floats darken flat surfaces far away. */
-static void smooth_halves(const char *path, const io_passes_request *request,
-                          const io_frame *frame, const crv_logger *log)
-{
-    for (int32_t i = 0; i < frame->desc.layers; i++)
-        if (io__smooth_halves(&frame->depth[i])) {
-            io__warn(
-                log, path,
-                "depth holds nothing but half floats, and there is no memory to take "
-                "their steps out; write it in 32-bit floats");
-            return;
-        }
-    if (request->is_later)
-        return;
-    io__warn(
-        log, path,
-        "depth holds nothing but half floats: their steps are smoothed, detail below "
-        "them is lost; write it in 32-bit floats");
-}
-
-/* The format that depth is read in, with the background that its numbers tell. */
-static crv_depth_format settle_format(const char *path, const io_passes_request *request,
-                                      io_frame *frame, bool has_normals,
-                                      io__depth_facts *settled, const crv_logger *log)
-{
-    crv_depth_format format = request->depth_format;
-    const crv_image *normals = has_normals ? &frame->normals : NULL;
-    /* 0 is what a zeroed request holds; it would make everything background. */
-    const bool find_background =
-        is_distance(format.encoding)
-        && (isinf(format.background) || format.background == 0.0f);
-    if (find_background)
-        format.background = usual_background;
-    const float limit = find_background ? usual_background : INFINITY;
-    io__depth_facts facts = io__depth_facts_of(&frame->depth[0], normals, limit);
-    if (is_distance(format.encoding) && facts.count && facts.largest <= 0.0f
-        && facts.smallest < 0.0f) {
-        negate_depth(path, frame, log);
-        facts = io__depth_facts_of(&frame->depth[0], normals, limit);
-    }
-    *settled = facts;
-    if (facts.is_half && is_distance(format.encoding))
-        smooth_halves(path, request, frame, log);
-    if (find_background && io__largest_is_sky(&facts)) {
-        format.background = facts.largest;
-        io__info(log, path, "depth from %g on is background: %zu pixels hold just that",
-                 (double)facts.largest, facts.at_largest);
-    }
-    return format;
-}
-
 static void settle_mixed(const char *path, io_frame *frame, const crv_logger *log)
 {
     const int64_t mixed = io__settle_mixed(frame);
@@ -260,29 +129,6 @@ static int settle_cameras(const char *path, const io_passes_request *request,
     return 1;
 }
 
-/* Directions do not tell how far the planes are, nor can smoothness tell much. */
-static void tell_of_unit_range(const char *path, const io_passes_request *request,
-                               const io__depth_facts *facts, bool has_normals,
-                               const io__verdict *verdict, const crv_logger *log)
-{
-    const bool fits =
-        has_normals && verdict->reading.id && verdict->reading.deviation < IO__DOUBTFUL;
-    const bool ends_at_1 = facts->largest == 1.0f && facts->at_largest < facts->count;
-    const bool begins_at_0 =
-        facts->smallest == 0.0f && facts->largest < 1.0f && !has_normals;
-    if (verdict->encoding_told || request->encoding_given || request->is_later
-        || !is_distance(request->depth_format.encoding) || facts->smallest < -1.0f
-        || !(ends_at_1 || begins_at_0))
-        return;
-    io__warn(log, path, "depth lies between %g and %g%s but is read as distances; %s",
-             (double)facts->smallest, (double)facts->largest,
-             fits ? ", and its normals agree: it is normalised, 0 near the eye and 1 at "
-                    "far,"
-                  : ": it looks normalised, or like a depth buffer,",
-             request->remedies.encoding ? request->remedies.encoding
-                                        : "say what its numbers mean");
-}
-
 static int settle(const char *path, const io_passes_request *request,
                   const io__pass_names *names, io_frame *frame, const crv_logger *log)
 {
@@ -296,15 +142,15 @@ static int settle(const char *path, const io_passes_request *request,
     for (int32_t i = 0; i < names->layers; i++)
         frame->depth[i] = view_of(&frame->image, i, 1);
     if (given_normals) {
-        frame->normals = view_of(&frame->image, depth_channels(names), 3);
+        frame->normals = view_of(&frame->image, io__depth_channels(names), 3);
         io__decode_normals(path, request, frame, log);
     }
     const crv_depth_format format =
-        settle_format(path, request, frame, given_normals, &facts, log);
+        io__settle_format(path, request, frame, given_normals, &facts, log);
     if (io__judge(path, request, &format, cameras, count, given_normals, frame, &verdict,
                   log))
         return -1;
-    tell_of_unit_range(path, request, &facts, given_normals, &verdict, log);
+    io__tell_of_unit_range(path, request, &facts, given_normals, &verdict, log);
     frame->camera = verdict.camera.camera;
     frame->deviation = verdict.reading.deviation;
     frame->zooms = verdict.zooms;
@@ -337,7 +183,7 @@ int io_frame_load(const char *path, const io_passes_request *request, io_frame *
     if (!result)
         result = io__choose_passes(path, &probed, request, &names, log);
     if (!result)
-        result = read_passes(path, &names, &frame.image, log);
+        result = io__read_passes(path, &names, &frame.image, log);
     if (!result)
         result = set_desc(path, request, &frame.image, names.layers, &frame.desc, log);
     if (!result) {
