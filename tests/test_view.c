@@ -11,6 +11,7 @@
 
 #include "command_text.h"
 #include "engine.h"
+#include "explain.h"
 #include "knob.h"
 #include "motion.h"
 #include "option_text.h"
@@ -276,6 +277,43 @@ static void test_moving_is_coarse(void **state)
     close_bench(&b);
 }
 
+/* A floor that meets a wall at a right angle: y = 0 and x = 0. From a point of the floor
+ * at distance d from the wall, what rises most within R is the wall at distance R: its
+ * elevation has the sine sqrt(1 - (d / R)^2). Towards the floor nothing rises. */
+static void test_explanation(void **state)
+{
+    (void)state;
+    const double radius = 1.0;
+    bench b;
+    shown s;
+    explanation e;
+    open_bench(&b, "builtin:corner");
+    b.wish.width = 480;
+    b.wish.height = 270;
+    /* From above, looking down along the wall. */
+    b.wish.view = (scene_view){.eye = {1, 5, 0.5}, .target = {1, 0, 0}, .up = {0, 1, 0}};
+    b.wish.view.vfov_rad = 0.5f;
+    render(&b, &s);
+    /* The target is in the middle, at 240, 135; a scene unit there is this wide: */
+    const double px = 135.0 / tan(0.25) / sqrt(25.25);
+    for (double d = 0.3; d < 0.9; d += 0.2) {
+        const int32_t x = (int32_t)lround(240.0 - (1.0 - d) * px);
+        assert_true(explain_pixel(s.buffers, x, 135, radius, &e));
+        assert_true(fabs(e.radius_px - px) < 0.02 * px);
+        double most = 0.0;
+        for (int i = 0; i < EXPLAIN_DIRECTIONS; i++)
+            most = fmax(most, e.horizon[i].sine);
+        /* A texel is 0.01 of R wide, and the wall is seen at a slant: its steps are 0.05
+         * high. */
+        assert_true(fabs(most - sqrt(1.0 - d * d)) < 0.05);
+        assert_false(e.horizon[0].found); /* to the right: floor */
+        assert_true(e.horizon[EXPLAIN_DIRECTIONS / 2].found);
+    }
+    assert_false(explain_pixel(s.buffers, -1, 0, radius, &e));
+    shown_free(&s);
+    close_bench(&b);
+}
+
 static void test_commands(void **state)
 {
     (void)state;
@@ -316,6 +354,7 @@ int main(void)
         cmocka_unit_test(test_engine_keeps_nothing_stale),
         cmocka_unit_test(test_looks),
         cmocka_unit_test(test_moving_is_coarse),
+        cmocka_unit_test(test_explanation),
         cmocka_unit_test(test_commands),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

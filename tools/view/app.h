@@ -22,6 +22,7 @@ typedef struct app {
     cairo_surface_t *picture[HALVES];             /* over shown's pixels */
     uint64_t asked, shown_number, painted_number; /* of wishes */
     bool overlay;                                 /* line, names and scale */
+    bool explains; /* horizons around the pixel under the pointer are drawn */
 
     double split;                /* the line between the halves, 0 to 1 */
     double zoom, left, top;      /* of frames: device px a pixel; the corner; 0: fit */

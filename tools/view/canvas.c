@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "common/heatmap.h"
+#include "explain.h"
 #include "io.h"
 
 enum { MARGIN = 10, PADDING = 6, SCALE_WIDTH = 160, SCALE_HEIGHT = 12 };
@@ -148,6 +149,50 @@ static void draw_scale(const app *a, cairo_t *c, double x, double y)
         g_free(ends[i]);
 }
 
+/* A texel's centre on the widget. */
+static void texel_centre(const app *a, int32_t x, int32_t y, double *out_x, double *out_y)
+{
+    const int factor = gtk_widget_get_scale_factor(a->canvas);
+    double scale_x, scale_y, left, top;
+    canvas_place(a, &scale_x, &scale_y, &left, &top);
+    *out_x = (left + (x + 0.5) * scale_x) / factor;
+    *out_y = (top + (y + 0.5) * scale_y) / factor;
+}
+
+/* The radius around the pixel, and the horizon of each direction: the redder, the higher.
+ */
+static void draw_explanation(const app *a, cairo_t *c)
+{
+    int32_t x, y;
+    double px, py, edge, unused;
+    explanation e;
+    if (a->pointer_x < 0.0 || !canvas_pixel(a, a->pointer_x, a->pointer_y, &x, &y))
+        return;
+    const int half = a->pointer_x >= a->split * gtk_widget_get_width(a->canvas);
+    if (!explain_pixel(a->shown.buffers, x, y,
+                       (double)a->shown.wish.half[half].options.radius, &e))
+        return;
+    texel_centre(a, x, y, &px, &py);
+    texel_centre(a, x + (int32_t)lround(fmin(e.radius_px, 1e6)), y, &edge, &unused);
+    cairo_set_line_width(c, 1.5);
+    cairo_set_source_rgba(c, 0.1, 0.4, 1.0, 0.9);
+    cairo_arc(c, px, py, edge - px, 0.0, 2.0 * G_PI);
+    cairo_stroke(c);
+    for (int i = 0; i < EXPLAIN_DIRECTIONS; i++) {
+        const explain_horizon *h = &e.horizon[i];
+        double hx, hy;
+        if (!h->found)
+            continue;
+        texel_centre(a, h->x, h->y, &hx, &hy);
+        cairo_set_source_rgba(c, 1.0, 0.85 * (1.0 - h->sine), 0.0, 0.9);
+        cairo_move_to(c, px, py);
+        cairo_line_to(c, hx, hy);
+        cairo_stroke(c);
+        cairo_arc(c, hx, hy, 3.0, 0.0, 2.0 * G_PI);
+        cairo_fill(c);
+    }
+}
+
 /* Widget px from here on. */
 static void draw_overlay(const app *a, cairo_t *c, int width, int height)
 {
@@ -166,6 +211,8 @@ static void draw_overlay(const app *a, cairo_t *c, int width, int height)
         cairo_arc(c, x, 0.5 * height, 5.0, 0.0, 2.0 * G_PI);
         cairo_fill(c);
     }
+    if (a->explains)
+        draw_explanation(a, c);
     char *names[] = {name_of(a, 0), name_of(a, 1)};
     if (a->split > 0.0)
         draw_text(a, c, names[0], MARGIN, MARGIN, false);

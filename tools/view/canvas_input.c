@@ -141,6 +141,8 @@ static void on_motion(GtkEventControllerMotion *motion, double x, double y, gpoi
     gtk_widget_set_cursor_from_name(a->canvas,
                                     fabs(x - line) < grip_px ? "col-resize" : NULL);
     probe_tell(a);
+    if (a->explains)
+        redraw(a);
 }
 
 static void on_leave(GtkEventControllerMotion *motion, gpointer user)
@@ -236,6 +238,9 @@ static bool zoom_key(app *a, guint key)
     return true;
 }
 
+static const char *const explained = "blue: the radius; yellow to red: the horizon of "
+                                     "each direction, the redder the higher";
+
 bool canvas_key(app *a, guint key, bool shift)
 {
     if (arrow_key(a, key, shift) || fly_key(a, key) || look_key(a, key)
@@ -247,6 +252,11 @@ bool canvas_key(app *a, guint key, bool shift)
         return true;
     case GDK_KEY_bracketright:
         set_split(a, a->split + split_step);
+        return true;
+    case GDK_KEY_x:
+        a->explains = !a->explains;
+        app_tell(a, "%s", a->explains ? explained : "");
+        redraw(a);
         return true;
     case GDK_KEY_f:
     case GDK_KEY_Home:

@@ -19,11 +19,16 @@ bool probe_text(const app *a, int32_t x, int32_t y, char *out, size_t size)
         snprintf(out + used, size - (size_t)used, "background");
         return true;
     }
-    used += snprintf(out + used, size - (size_t)used,
-                     "depth %.6g  normal %.3f,%.3f,%.3f  left %.4f  right %.4f",
-                     (double)b->g.depth[0][g], (double)n[0], (double)n[1], (double)n[2],
-                     (double)s->half[0].accessibility[i],
-                     (double)s->half[1].accessibility[i]);
+    used += snprintf(out + used, size - (size_t)used, "depth %.6g  normal %.3f,%.3f,%.3f",
+                     (double)b->g.depth[0][g], (double)n[0], (double)n[1], (double)n[2]);
+    for (int k = 0; k < HALVES; k++) {
+        const half_shown *h = &s->half[k];
+        const bool known = s->wish.half[k].content != HALF_TRUTH || s->coarseness > 1
+                           || (h->has_truth && (int64_t)i < h->truth.known);
+        used +=
+            snprintf(out + used, size - (size_t)used, known ? "  %s %.4f" : "  %s ...",
+                     k == 0 ? "left" : "right", (double)h->accessibility[i]);
+    }
     const half_shown *h = &s->half[x >= a->split * b->width];
     if (h->has_truth && (int64_t)i < h->truth.known)
         snprintf(out + used, size - (size_t)used, "  truth %.4f",

@@ -245,6 +245,24 @@ static const char *do_key(script *s, char **word)
     return canvas_key(s->app, key, false) ? NULL : "the key does nothing";
 }
 
+/* The pointer over a pixel of the picture. */
+static const char *do_point(script *s, char **word)
+{
+    double at[2], scale_x, scale_y, left, top;
+    app *a = s->app;
+    const int factor = gtk_widget_get_scale_factor(a->canvas);
+    if (!numbers(word, 2, at))
+        return no_number;
+    if (!a->shown.buffers)
+        return "there is no picture yet";
+    canvas_place(a, &scale_x, &scale_y, &left, &top);
+    a->pointer_x = (left + (at[0] + 0.5) * scale_x) / factor;
+    a->pointer_y = (top + (at[1] + 0.5) * scale_y) / factor;
+    probe_tell(a);
+    gtk_widget_queue_draw(a->canvas);
+    return NULL;
+}
+
 static const char *do_frame(script *s, char **word)
 {
     double frame;
@@ -393,6 +411,7 @@ const script_action script_actions[] = {
     {"orbit", 2, do_orbit},
     {"fit", 0, do_fit},
     {"key", 1, do_key},
+    {"point", 2, do_point},
     {"frame", 1, do_frame},
     {"save", 2, do_save},
     {"screenshot", 1, do_screenshot},

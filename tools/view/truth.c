@@ -1,15 +1,22 @@
 /* SPDX-License-Identifier: MIT */
+#define _POSIX_C_SOURCE 200809L
+
 #include "truth.h"
 
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
+#include "common/report.h"
 #include "target.h"
 
-/* Pixels between two looks at the wishes, and between two calls of changed(). */
-enum { CHUNK = 4096, TOLD = 24 };
+/* Pixels between two looks at the wishes: a few milliseconds. */
+enum { CHUNK = 1024 };
+/* Between two calls of changed(), but for the first passes. */
+#define TOLD_S 0.1
+enum { FIRST_PASSES = 3 };
 
 typedef struct truth_slot {
     buffers *b; /* held; NULL: nothing is wanted */
@@ -29,6 +36,8 @@ struct truth {
     pthread_mutex_t lock;
     pthread_cond_t wake;
     bool quit, hold;
+    double rest_until; /* as hold, until then; report_seconds() */
+    double told;       /* when changed() was called last */
     truth_slot slot[TRUTH_SLOTS];
     bool shared; /* slot 1 wants what slot 0 does */
 };
@@ -100,8 +109,6 @@ static void add_pass(truth_slot *s, const reference *r)
 /* Shows what there is of the first pass. */
 static void show_part(truth_slot *s, const reference *r)
 {
-    if (s->state.passes > 0)
-        return;
     s->state.known = reference_done(r);
     memcpy(s->mean, reference_accessibility(r), (size_t)s->state.known * sizeof *s->mean);
 }
@@ -110,7 +117,7 @@ static void show_part(truth_slot *s, const reference *r)
 typedef struct job {
     reference *work;
     buffers *b; /* held as long as `work` reads it */
-    int generation, chunks;
+    int generation;
 } job;
 
 static void drop_job(job *j)
@@ -156,13 +163,31 @@ static bool work_on(truth *t, int index, job *j)
     if (whole) {
         add_pass(s, work);
         reference_restart(work, (uint32_t)s->state.passes + 1);
-        j->chunks = 0;
-        return true;
     }
-    const bool tell = ++j->chunks % TOLD == 0 && s->state.passes == 0;
-    if (tell)
+    const bool is_news = whole || s->state.passes == 0;
+    const bool is_urgent =
+        whole && (s->state.passes <= FIRST_PASSES || s->state.passes == TRUTH_PASSES);
+    if (!is_news || (!is_urgent && report_seconds() < t->told + TOLD_S))
+        return false;
+    if (!whole)
         show_part(s, work);
-    return tell;
+    t->told = report_seconds();
+    return true;
+}
+
+/* Waits out the rest; false if there is none. */
+static bool rest(truth *t)
+{
+    const double left = t->rest_until - report_seconds();
+    struct timespec until;
+    if (!(left > 0.0))
+        return false;
+    clock_gettime(CLOCK_REALTIME, &until);
+    const int64_t ns = until.tv_nsec + (int64_t)(left * 1e9);
+    until.tv_sec += (time_t)(ns / 1000000000);
+    until.tv_nsec = (long)(ns % 1000000000);
+    pthread_cond_timedwait(&t->wake, &t->lock, &until);
+    return true;
 }
 
 static void *run(void *data)
@@ -179,6 +204,8 @@ static void *run(void *data)
             pthread_cond_wait(&t->wake, &t->lock);
             continue;
         }
+        if (rest(t))
+            continue;
         if (work_on(t, index, &jobs[index])) {
             pthread_mutex_unlock(&t->lock);
             t->changed(t->user);
@@ -254,6 +281,13 @@ void truth_hold(truth *t, bool hold)
     pthread_mutex_lock(&t->lock);
     t->hold = hold;
     pthread_cond_signal(&t->wake);
+    pthread_mutex_unlock(&t->lock);
+}
+
+void truth_rest(truth *t, double seconds)
+{
+    pthread_mutex_lock(&t->lock);
+    t->rest_until = report_seconds() + seconds;
     pthread_mutex_unlock(&t->lock);
 }
 

@@ -42,6 +42,9 @@ void truth_want(truth *t, int slot, buffers *b, const reference_options *o);
 /* While it is held, the thread leaves the processors to others. */
 void truth_hold(truth *t, bool hold);
 
+/* The same for some time, in which what was wished for is drawn. */
+void truth_rest(truth *t, double seconds);
+
 /* Copies the mean so far, a float for each pixel inside the guard band; false if the slot
  * is not of these buffers. */
 bool truth_read(truth *t, int slot, const buffers *b, float *out, truth_state *state);

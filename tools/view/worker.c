@@ -5,6 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* A picture is on the screen after this time. */
+#define DRAWN_S 0.04
+
 struct worker {
     engine *engine;
     void (*ready)(void *user);
@@ -39,13 +42,16 @@ static void publish(worker *k, shown *s, uint64_t number)
     k->ready(k->user);
 }
 
-static void serve(worker *k, const wish *w, uint64_t number)
+/* again: the wish was served before. */
+static void serve(worker *k, const wish *w, uint64_t number, bool again)
 {
     truth *t = k->engine->truth;
     shown made;
     if (t)
         truth_hold(t, true);
     const bool done = engine_render(k->engine, w, &made);
+    if (t && !again)
+        truth_rest(t, DRAWN_S);
     if (t)
         truth_hold(t, false);
     if (done)
@@ -62,12 +68,14 @@ static void *run(void *data)
             continue;
         }
         const wish w = k->wish;
-        const uint64_t number = k->served = k->asked;
+        const uint64_t number = k->asked;
+        const bool again = number == k->served;
+        k->served = number;
         k->again = false;
         k->busy = true;
         atomic_store(&k->engine->source->stop, false);
         pthread_mutex_unlock(&k->lock);
-        serve(k, &w, number);
+        serve(k, &w, number, again);
         pthread_mutex_lock(&k->lock);
         k->busy = false;
     }
