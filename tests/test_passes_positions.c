@@ -221,6 +221,25 @@ static void test_a_plane_alone(void **state)
     io_frame_free(&frame);
 }
 
+/* A frame of a shot may show nothing but sky. */
+static void test_nothing_seen(void **state)
+{
+    (void)state;
+    const io_passes_request request = plain_request();
+    io_frame frame;
+    memset(planes, 0, sizeof planes);
+    planes[1][7] = NAN;
+    load(write_planes(p_names, 3, NULL), &request, &frame);
+    for (int i = 0; i < PIXELS; i++)
+        assert_true(!isfinite(*crv_image_at(&frame.depth[0], i % W, i / W, 0)));
+    io_frame_free(&frame);
+    /* A single position tells no camera. */
+    planes[2][PIXELS / 2] = -3.0f;
+    const char *path = write_planes(p_names, 3, NULL);
+    assert_int_equal(io_frame_load(path, &request, &frame, support_logger()), -1);
+    support_expect_error(path, "do not tell which camera saw them");
+}
+
 /* What the user says and the positions deny is refused, metadata are told of. */
 static void test_contradictions(void **state)
 {
@@ -329,7 +348,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_camera_and_depth), cmocka_unit_test(test_normals),
         cmocka_unit_test(test_a_plane_alone),    cmocka_unit_test(test_contradictions),
-        cmocka_unit_test(test_roughness),        cmocka_unit_test(test_choice),
+        cmocka_unit_test(test_nothing_seen),     cmocka_unit_test(test_roughness),
+        cmocka_unit_test(test_choice),
     };
     return cmocka_run_group_tests(tests, support_setup, support_teardown);
 }

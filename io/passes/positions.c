@@ -307,6 +307,24 @@ static int settle(const char *path, const io_passes_request *request, io_frame *
     return 0;
 }
 
+/* Whether nothing is seen: then any camera will do. Depth becomes background. */
+static bool settle_nothing(const io_image *image, const io__camera_guess *known,
+                           int count, io__camera_guess *out)
+{
+    const int32_t width = image->width, height = image->height;
+    for (int32_t y = 0; y < height; y++)
+        for (int32_t x = 0; x < width; x++)
+            if (is_surface_at(image, x, y))
+                return false;
+    for (size_t i = 0; i < (size_t)width * (size_t)height; i++)
+        image->channels[0].data[i] = INFINITY;
+    *out = (io__camera_guess){.camera = crv_camera_perspective(width, height, 1.0f),
+                              .text = "any, for nothing is seen"};
+    if (count)
+        *out = known[0];
+    return true;
+}
+
 int io__settle_positions(const char *path, const io_passes_request *request,
                          io_frame *frame, const io__camera_guess *known, int count,
                          io__camera_guess *out, const crv_logger *log)
@@ -321,6 +339,8 @@ int io__settle_positions(const char *path, const io_passes_request *request,
         return io__fail(log, path,
                         "its positions have no depth encoding; leave that out, or name a "
                         "depth channel");
+    if (settle_nothing(&frame->image, known, count, out))
+        return 0;
     int result = collect(&frame->image, io__sampling_step(&first), &c);
     const io__points points = {(const double(*)[3])c.position,
                                (const double(*)[2])c.pixel, c.count};
