@@ -129,6 +129,10 @@ typedef struct scene_gbuffer_request {
     /* Another thread may set it to true to have the work given up: the result is -1, and
      * nothing is logged. NULL: nobody does. */
     const atomic_bool *stop;
+    /* Told by the calling thread now and then how many rows of the G-buffer are done.
+     * NULL: nobody. */
+    void (*watch)(void *user, int32_t rows);
+    void *user; /* handed to watch */
 } scene_gbuffer_request;
 
 /* Pixels are packed, guard band included. */

@@ -374,6 +374,11 @@ static void announce(const scene *model, const scene_gbuffer_request *request, r
     scene_gbuffer_free(&cast);
 }
 
+static void show_rows(void *user, int32_t rows)
+{
+    progress_show(user, rows);
+}
+
 int view_render(const view_settings *s, const scene *model, bool texture_frames,
                 scene_gbuffer *out, report *r)
 {
@@ -395,7 +400,12 @@ int view_render(const view_settings *s, const scene *model, bool texture_frames,
         return result;
     report_info(r, "camera: %s", exact_view(model, &request.view, camera));
     announce(model, &request, r);
-    if (scene_render_gbuffer(model, &request, out, &r->logger) != 0)
+    progress p = progress_begin(r, "G-buffer", 0, request.height + 2 * request.guard_px);
+    request.watch = show_rows;
+    request.user = &p;
+    const int cast = scene_render_gbuffer(model, &request, out, &r->logger);
+    progress_end(&p);
+    if (cast != 0)
         return EXIT_FAILED;
     if (!view_shows_something(out))
         report_warning(
