@@ -5,13 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cloud.h"
 #include "depth.h"
 #include "internal.h"
 #include "pairs.h"
 #include "projection.h"
-
-/* No renderer puts a surface that far away. */
-static const float nowhere = 1e10f;
 
 /* Pixels. Up to the first the points are where the camera sees them, for samples lie
  * anywhere in their pixels; beyond the second this is no camera. */
@@ -19,70 +17,6 @@ static const double exact_px = 0.3, worst_px = 1.0;
 
 /* Of a focal length: what no rounding explains. */
 static const double other_lens = 0.01;
-
-typedef struct cloud {
-    double (*position)[3];
-    double (*pixel)[2];
-    size_t count;
-} cloud;
-
-static void load_position(const io_image *image, size_t i, float p[3])
-{
-    for (int c = 0; c < 3; c++)
-        p[c] = image->channels[c].data[i];
-}
-
-/* Renderers write 0, 0, 0 where there is nothing. */
-static bool is_surface(const float p[3])
-{
-    bool zero = true;
-    for (int c = 0; c < 3; c++) {
-        if (!(fabsf(p[c]) < nowhere))
-            return false;
-        zero = zero && !(fabsf(p[c]) > 0.0f);
-    }
-    return !zero;
-}
-
-static bool is_surface_at(const io_image *image, int32_t x, int32_t y)
-{
-    float p[3];
-    load_position(image, (size_t)y * (size_t)image->width + (size_t)x, p);
-    return is_surface(p);
-}
-
-/* Filtered positions at the border to nothing are drawn to 0, 0, 0. Those between two
- * surfaces stay on their ray. */
-static bool is_inside(const io_image *image, int32_t x, int32_t y)
-{
-    return (x == 0 || is_surface_at(image, x - 1, y))
-           && (y == 0 || is_surface_at(image, x, y - 1))
-           && (x == image->width - 1 || is_surface_at(image, x + 1, y))
-           && (y == image->height - 1 || is_surface_at(image, x, y + 1));
-}
-
-static int collect(const io_image *image, int32_t step, cloud *out)
-{
-    const size_t most = ((size_t)image->width / (size_t)step + 1)
-                        * ((size_t)image->height / (size_t)step + 1);
-    out->position = malloc(most * sizeof *out->position);
-    out->pixel = malloc(most * sizeof *out->pixel);
-    if (!out->position || !out->pixel)
-        return -1;
-    for (int32_t y = step / 2; y < image->height; y += step)
-        for (int32_t x = step / 2; x < image->width; x += step) {
-            float p[3];
-            load_position(image, (size_t)y * (size_t)image->width + (size_t)x, p);
-            if (!is_surface(p) || !is_inside(image, x, y))
-                continue;
-            for (int c = 0; c < 3; c++)
-                out->position[out->count][c] = (double)p[c];
-            out->pixel[out->count][0] = x + 0.5;
-            out->pixel[out->count][1] = y + 0.5;
-            out->count++;
-        }
-    return 0;
-}
 
 /* Camera space in one of its handednesses. */
 static bool fit_camera_space(const io__points *points, bool orthographic,
@@ -229,12 +163,12 @@ static size_t write_depth(const io_image *image, const io__projection *p)
             const double pixel[2] = {x + 0.5, y + 0.5};
             float position[3];
             double exact[3], depth = 0.0;
-            load_position(image, i, position);
+            io__load_position(image, i, position);
             for (int c = 0; c < 3; c++) {
                 exact[c] = (double)position[c];
                 depth -= p->to_view[6 + c] * (exact[c] - p->eye[c]);
             }
-            const bool surface = is_surface(position);
+            const bool surface = io__is_position(position);
             const bool seen =
                 surface && io__projection_error_at(p, exact, pixel) < limit_px;
             left_out += surface && !seen;
@@ -264,7 +198,7 @@ static bool are_halves(const io_frame *frame)
     for (int c = 0; c < 3; c++) {
         const crv_image plane = crv_image_packed(
             frame->image.channels[c].data, frame->image.width, frame->image.height, 1);
-        if (!io__depth_facts_of(&plane, NULL, nowhere).is_half)
+        if (!io__depth_facts_of(&plane, NULL, IO__NOWHERE).is_half)
             return false;
     }
     return true;
@@ -314,7 +248,7 @@ static bool settle_nothing(const io_image *image, const io__camera_guess *known,
     const int32_t width = image->width, height = image->height;
     for (int32_t y = 0; y < height; y++)
         for (int32_t x = 0; x < width; x++)
-            if (is_surface_at(image, x, y))
+            if (io__is_position_at(image, x, y))
                 return false;
     for (size_t i = 0; i < (size_t)width * (size_t)height; i++)
         image->channels[0].data[i] = INFINITY;
@@ -331,7 +265,7 @@ int io__settle_positions(const char *path, const io_passes_request *request,
 {
     const crv_image first = crv_image_packed(frame->image.channels[0].data,
                                              frame->image.width, frame->image.height, 1);
-    cloud c = {0};
+    io__cloud c = {0};
     /* The positions tell it better. */
     if (request->fit_vfov)
         count = 0;
@@ -341,7 +275,7 @@ int io__settle_positions(const char *path, const io_passes_request *request,
                         "depth channel");
     if (settle_nothing(&frame->image, known, count, out))
         return 0;
-    int result = collect(&frame->image, io__sampling_step(&first), &c);
+    int result = io__collect_positions(&frame->image, io__sampling_step(&first), &c);
     const io__points points = {(const double(*)[3])c.position,
                                (const double(*)[2])c.pixel, c.count};
     if (result)
