@@ -16,11 +16,13 @@
 
 enum { MAX_TRIES = 100 };
 
-/* Locks the file, for io__remove_leftovers(), which may have removed it before. */
+/* Locks the file, for io__remove_leftovers() of another process: that may have removed it
+ * before, or be about to, if it has the lock. File systems without locks remove nothing. */
 static bool is_still_ours(int descriptor)
 {
     struct stat status;
-    flock(descriptor, LOCK_EX | LOCK_NB);
+    if (flock(descriptor, LOCK_EX | LOCK_NB) && errno == EWOULDBLOCK)
+        return false;
     return fstat(descriptor, &status) || status.st_nlink > 0;
 }
 
@@ -144,6 +146,9 @@ int io__output_commit(io__output *output)
     errno = 0;
     bool written = !ferror(output->stream) && !io__output_flush(output);
     int reason = errno;
+    /* Keeps the lock until the file has its name; closed and unlocked before, it would
+     * look like a leftover to another process. */
+    const int lock = fcntl(fileno(output->stream), F_DUPFD_CLOEXEC, 0);
     if (fclose(output->stream) && written && errno != EINTR) {
         written = false;
         reason = errno;
@@ -153,6 +158,8 @@ int io__output_commit(io__output *output)
         written = false;
         reason = errno;
     }
+    if (lock >= 0)
+        close(lock);
     if (written) {
         free(output->temporary);
         output->temporary = NULL; /* it has become the target */

@@ -17,7 +17,7 @@ crevice_test(test_io_bad SOURCES test_io_bad.c LIBS crevice_io_support)
 crevice_test(test_io_normal_fit SOURCES test_io_normal_fit.c LIBS crevice_io_support)
 # Calls of the system that the linker hands to the test, which lets them fail.
 crevice_test(test_io_faults SOURCES test_io_faults.c LIBS crevice_io_support)
-foreach(call pread pread64 pwrite pwrite64 fread fwrite fflush fsync fclose rename calloc)
+foreach(call pread pread64 pwrite pwrite64 fread fwrite fflush fsync fclose rename flock calloc)
     target_link_options(test_io_faults PRIVATE LINKER:--wrap=${call})
 endforeach()
 crevice_test(test_passes_names SOURCES test_passes_names.c LIBS crevice_io_support)

@@ -84,10 +84,39 @@ int __wrap_fclose(FILE *stream)
     return EOF;
 }
 
+/* A temporary file that another process has locked, in order to remove it. */
+static bool is_contended;
+static char contended[4096];
+static int contender = -1;
+static bool is_locked_at_rename;
+
+int __real_flock(int file, int operation);
+int __wrap_flock(int file, int operation);
+int __wrap_flock(int file, int operation)
+{
+    if (is_contended) {
+        char link[64];
+        snprintf(link, sizeof link, "/proc/self/fd/%d", file);
+        const ssize_t length = readlink(link, contended, sizeof contended - 1);
+        contended[length > 0 ? length : 0] = '\0';
+        contender = open(link, O_RDWR);
+        is_contended = __real_flock(contender, LOCK_EX | LOCK_NB);
+    }
+    return __real_flock(file, operation);
+}
+
 int __real_rename(const char *from, const char *to);
 int __wrap_rename(const char *from, const char *to);
 int __wrap_rename(const char *from, const char *to)
 {
+    if (contended[0])
+        unlink(contended); /* what it was locked for */
+    contended[0] = '\0';
+    /* Nobody may take it for a leftover now. */
+    const int other = open(from, O_RDWR);
+    is_locked_at_rename = other >= 0 && __real_flock(other, LOCK_EX | LOCK_NB) != 0;
+    if (other >= 0)
+        close(other);
     return fails_now(false) ? -1 : __real_rename(from, to);
 }
 
@@ -346,6 +375,31 @@ static void test_tiny_file_of_gigabytes(void **state)
     assert_true(largest_request < 1u << 20); /* the picture: 4 GiB */
 }
 
+/* Another process takes a file that was made a moment ago for a leftover. */
+static void test_removal_by_others(void **state)
+{
+    static const char *const names[] = {"AO"};
+    const char *path = support_path("contended.exr");
+    io_image image;
+    struct stat status;
+    (void)state;
+    if (access("/proc/self/fd", R_OK)) {
+        print_message("no /proc: skipped\n");
+        skip();
+    }
+    support_forget();
+    plan_fault(-1, 0);
+    assert_int_equal(io_image_init(&image, 4, 4, names, 1, NULL), 0);
+    is_contended = true;
+    assert_int_equal(io_write(path, &image, NULL, support_logger()), 0);
+    assert_true(contender >= 0);
+    close(contender);
+    assert_int_equal(stat(path, &status), 0);
+    assert_int_equal(support_lines.errors, 0);
+    assert_true(is_locked_at_rename);
+    io_image_free(&image);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -353,6 +407,7 @@ int main(void)
         cmocka_unit_test(test_reads_that_fail),
         cmocka_unit_test(test_calls_that_go_on),
         cmocka_unit_test(test_leftovers),
+        cmocka_unit_test(test_removal_by_others),
         cmocka_unit_test(test_links_to_one_file),
         cmocka_unit_test(test_names_that_lie),
         cmocka_unit_test(test_tiny_file_of_gigabytes),
