@@ -49,6 +49,7 @@ bad 2 '--views' ao "eye.%V.1.exr" -o out.exr
 bad 2 '--views' ao eye.left.1.exr --views left,,right -o out.exr
 bad 2 '--views' ao eye.left.1.exr --views left,right --depth Z -o out.exr
 bad 2 '-o' ao "eye.%V.1.exr" --views left,right -o out.png
+bad 2 'one file name' ao "eye.%V.1.exr" --views left,lower -o "out.%v.exr"
 bad 2 '-o' ao "eye.%V.1.exr" --views left,right --append -o out.exr
 bad 1 'has no view "left"' ao eye.left.1.exr --views left,right -o out.exr
 # shellcheck disable=SC2086

@@ -26,6 +26,18 @@ bool views_have_place(const char *pattern)
     return strstr(pattern, "%V") || strstr(pattern, "%v");
 }
 
+/* Whether the name is the same for two views: left and lower, with %v. */
+static bool is_shared(const char *pattern, const view_list *views)
+{
+    char a[4096], b[4096];
+    for (int32_t i = 0; i < views->count; i++)
+        for (int32_t j = 0; j < i; j++)
+            if (views_name(pattern, views->name[i], a, sizeof a)
+                && views_name(pattern, views->name[j], b, sizeof b) && !strcmp(a, b))
+                return true;
+    return false;
+}
+
 const char *views_mistake(const ao_settings *s, view_list *out)
 {
     const bool places = views_have_place(s->output);
@@ -41,6 +53,8 @@ const char *views_mistake(const ao_settings *s, view_list *out)
     if (s->depth || (s->normal && strcmp(s->normal, "none") != 0))
         return "--views: finds the passes of each view by their names; leave out --depth "
                "and --normal";
+    if (places && is_shared(s->output, out))
+        return "-o: two views have one file name; use %V instead of %v";
     if (!places && out->count > 1 && !io_keeps_windows(s->output))
         return "-o: only .exr holds several views; write .exr, or a file for each, named "
                "with %V";
