@@ -16,8 +16,9 @@
 
 enum { MAX_TRIES = 100 };
 
-/* Locks the file, for io__remove_leftovers() of another process: that may have removed it
- * before, or be about to, if it has the lock. File systems without locks remove nothing. */
+/* Locks the file, for io__remove_leftovers() of another process: that may have removed
+ * it before, or be about to, if it has the lock. File systems without locks remove
+ * nothing. */
 static bool is_still_ours(int descriptor)
 {
     struct stat status;
