@@ -182,6 +182,21 @@ static void test_find_pass(void **state)
     }
 }
 
+/* As for depth, the left eye stands for a frame of both. */
+static void test_positions_of_eyes(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"V.Position.right.X", "V.Position.right.Y",
+                                        "V.Position.right.Z", "V.Position.left.X",
+                                        "V.Position.left.Y",  "V.Position.left.Z"};
+    const char *found[3];
+    io_image image;
+    assert_int_equal(io_image_init(&image, 1, 1, names, 6, NULL), 0);
+    assert_int_equal(io_find_pass(&image, IO_PASS_POSITION, found), 3);
+    assert_string_equal(found[0], "V.Position.left.X");
+    io_image_free(&image);
+}
+
 static void test_choice_by_name(void **state)
 {
     (void)state;
@@ -262,6 +277,7 @@ int main(void)
         cmocka_unit_test(test_only_channel),
         cmocka_unit_test(test_conventions),
         cmocka_unit_test(test_find_pass),
+        cmocka_unit_test(test_positions_of_eyes),
         cmocka_unit_test(test_choice_by_name),
         cmocka_unit_test(test_layers),
         cmocka_unit_test(test_layers_of_solids),

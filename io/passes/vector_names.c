@@ -18,12 +18,13 @@ static int position_rank(const char *name, size_t length)
                                          "local", "screen", "composition"};
     const io__pieces s = io__split_layer(name, name + length);
     const int row = io__row_of(&s, IO_PASS_POSITION);
+    const int right = s.view_length && strchr("rR", s.view[0]) ? 1 : 0;
     if (row >= 0)
-        return row;
+        return 2 * row + right;
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
         if (io__contains(s.layer, s.layer_length, others[i]))
             return IO__NO_MATCH;
-    return io__contains(s.layer, s.layer_length, "position") ? IO__LOOKS_LIKE
+    return io__contains(s.layer, s.layer_length, "position") ? IO__LOOKS_LIKE + right
                                                              : IO__NO_MATCH;
 }
 

@@ -258,6 +258,8 @@ static const char *const examples[] = {
     "Layer.AO2\" -o out.####.exr",
     "the set darkens the hero, and nothing else is darkened",
     "crevice ao frame.exr --vfov 35 --receive 'crypto:hero*' -o hero_ao.exr",
+    "a zoom, its cameras exported as .chan",
+    "crevice ao shot.####.exr --frames 1-240 --camera shot.chan -o ao.####.exr",
     "a depth buffer of a game, without normals",
     "crevice ao depth.pfm --depth-encoding reversed --near 0.1 --far inf --vfov 70 -o "
     "ao.png",
