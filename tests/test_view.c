@@ -150,7 +150,7 @@ static void test_option_text(void **state)
 /* An engine on a small built-in scene. */
 typedef struct bench {
     report r;
-    view_settings settings;
+    viewer_settings settings;
     source source;
     engine engine;
     wish wish;
@@ -166,15 +166,15 @@ static void quiet(void *user, crv_log_level level, const char *line)
 static void open_bench(bench *b, const char *model)
 {
     *b = (bench){.r.logger.fn = quiet, .r.quiet = true};
-    b->settings = (view_settings){.common.options = options_of(NULL), .model = model};
-    b->settings.size = (arg_size){.width = 96, .height = 54};
-    b->settings.layers.value = 1;
-    assert_int_equal(source_open(&b->source, &b->settings, NULL, &b->r), EXIT_DONE);
-    assert_int_equal(
-        engine_open(&b->engine, &b->source, NULL, &b->settings.common, &b->r), EXIT_DONE);
-    b->wish = (wish){.width = 96, .height = 54, .heat_scale = 0.25};
-    assert_int_equal(view_choose(&b->settings, b->source.model, &b->wish.view, &b->r),
+    view_settings *v = &b->settings.view;
+    *v = (view_settings){.common.options = options_of(NULL), .model = model};
+    v->size = (arg_size){.width = 96, .height = 54};
+    v->layers.value = 1;
+    assert_int_equal(source_open(&b->source, &b->settings, &b->r), EXIT_DONE);
+    assert_int_equal(engine_open(&b->engine, &b->source, NULL, &v->common, &b->r),
                      EXIT_DONE);
+    b->wish = (wish){.width = 96, .height = 54, .heat_scale = 0.25};
+    assert_int_equal(view_choose(v, b->source.model, &b->wish.view, &b->r), EXIT_DONE);
     for (int i = 0; i < HALVES; i++) {
         b->wish.half[i].options = options_of(NULL);
         b->wish.half[i].options.radius = 0.3f;
@@ -335,7 +335,7 @@ static void test_commands(void **state)
     w->half[1].look = LOOK_DIFFERENCE;
     command_text(&b.source, w, 1, text);
     assert_non_null(strstr(text, "&& crevice compare left.exr right.exr --heat-scale"));
-    b.settings.model = "it's a model.glb";
+    b.settings.view.model = "it's a model.glb";
     w->half[0].look = LOOK_LIT;
     command_text(&b.source, w, 0, text);
     assert_non_null(strstr(text, "crevice render 'it'\\''s a model.glb' --size"));

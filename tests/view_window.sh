@@ -119,7 +119,7 @@ at_most "$(number max_error)" 0 "difference of copied options"
 
 # A frame: the same bits as `crevice ao`.
 good gbuffer builtin:courtyard --size 640x400 -o frame.exr -q
-act frame.exr <<'END'
+act frame.exr --normal none --depth Z <<'END'
 size 640 400
 overlay off
 split 1
@@ -134,6 +134,7 @@ key Left
 wait
 quit
 END
+grep -q -- '--depth Z --normal none' stdout.txt || fail "passes are not in the command"
 PATH="$(dirname "$tool"):$PATH" sh -ec "$(grep '^crevice ao' stdout.txt)" 2>/dev/null
 same frame.png ao.png R 0 Y
 
@@ -184,6 +185,7 @@ bad 1 'nothing.glb' view nothing.glb
 bad 1 'no triangles' view lines.obj
 bad 1 'not_here.exr' view not_here.exr
 bad 1 'vfov' view colour.pfm
+bad 2 'add --near and --far' view colour.pfm --depth-encoding reversed
 bad 2 'frames' view 'shot.#.exr'
 bad 2 'did you mean' view builtin:corner --methd gtao
 echo dance >dance.txt

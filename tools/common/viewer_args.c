@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "viewer_args.h"
 
+#include <math.h>
+
 static const arg input_rows[] = {
     {.name = "INPUT",
      .required = true,
@@ -20,9 +22,12 @@ static const arg input_rows[] = {
 };
 static const arg_table input_table = ARG_TABLE("Input", input_rows);
 
-static const arg_table *const tables[] = {&input_table,  &view_camera, &view_buffers,
-                                          &args_threads, &args_device, &args_output_lines,
-                                          NULL};
+static const arg pass_rows[] = {PASS_ROWS(viewer_settings, passes)};
+static const arg_table pass_table = ARG_TABLE("Passes of frames", pass_rows);
+
+static const arg_table *const tables[] = {&input_table,       &pass_table,   &view_camera,
+                                          &view_buffers,      &args_threads, &args_device,
+                                          &args_output_lines, NULL};
 
 static const char *const examples[] = {
     "a mesh, the default method beside the truth",

@@ -3,11 +3,13 @@
 #ifndef TOOL_VIEWER_ARGS_H
 #define TOOL_VIEWER_ARGS_H
 
+#include "pass_args.h"
 #include "view.h"
 
 typedef struct viewer_settings {
     view_settings view; /* its model may be a frame, too */
     const char *frames, *script;
+    pass_settings passes; /* of frames */
 } viewer_settings;
 
 /* Its `run` is NULL: see command.program. */

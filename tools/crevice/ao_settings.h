@@ -3,16 +3,16 @@
 #ifndef TOOL_AO_SETTINGS_H
 #define TOOL_AO_SETTINGS_H
 
-#include "common/args.h"
+#include "common/pass_args.h"
 
 typedef struct ao_settings {
     common_settings common;
     const char *input, *output, *frames;
-    const char *depth, *normal, *normal_flip;
+    pass_settings passes;
     const char *camera; /* file of cameras */
     arg_int camera_order;
-    arg_int depth_encoding, normal_space, layer_kind;
-    arg_number vfov_deg, hfov_deg, lens_mm, sensor_mm, ortho, z_near, z_far, background;
+    arg_int layer_kind;
+    arg_number vfov_deg, hfov_deg, lens_mm, sensor_mm, ortho;
     arg_int radius_frame, jobs, aa;
     arg_int bits;
     bool half, skip_existing, crop;

@@ -10,20 +10,6 @@
 #include "common/estimate.h"
 #include "shot.h"
 
-/* In the order of crv_depth_encoding. */
-static const char *const encodings[] = {"planar",
-                                        "radial",
-                                        "hardware",
-                                        "reversed",
-                                        "disparity",
-                                        "normalised",
-                                        "normalised-reversed",
-                                        "gl",
-                                        "logarithmic",
-                                        NULL};
-/* In the order of io_normal_space. */
-static const char *const spaces[] = {"find", "view", "world", NULL};
-
 /* In the order of crv_layers. */
 static const char *const layer_kinds[] = {"surfaces", "solid", NULL};
 
@@ -133,37 +119,7 @@ static const arg_table mask_table = ARG_TABLE("Parts of the frame", mask_rows);
 static const arg_table append_table = ARG_TABLE("In the frame itself", append_rows);
 
 static const arg pass_rows[] = {
-    {.name = "--depth",
-     .value = "NAME",
-     .computed = "found by its name",
-     ARG_INTO(ARG_TEXT, ao_settings, depth),
-     .help = "the depth channel, or positions without .X .Y .Z"},
-    {.name = "--normal",
-     .value = "NAME",
-     .computed = "found by its name",
-     ARG_INTO(ARG_TEXT, ao_settings, normal),
-     .help = "the normals, without .X .Y .Z; none: take them from depth"},
-    {.name = "--normal-space",
-     .value = "SPACE",
-     .choices = spaces,
-     .initial = "find",
-     ARG_INTO(ARG_CHOICE, ao_settings, normal_space),
-     .help = "the space of the normals"},
-    {.name = "--normal-flip",
-     .value = "AXES",
-     ARG_INTO(ARG_TEXT, ao_settings, normal_flip),
-     .help = "axes of the normals to negate, of x, y and z: y for a green that points "
-             "down, z for normals that look into the picture"},
-    {.name = "--depth-encoding",
-     .value = "KIND",
-     .choices = encodings,
-     .computed = "planar, or radial if the normals fit that",
-     ARG_INTO(ARG_CHOICE, ao_settings, depth_encoding),
-     .help =
-         "planar: distance along the viewing axis; radial: from the eye; hardware: "
-         "depth buffer, 0 at near; reversed: 1 at near; disparity: 1/planar; "
-         "normalised: planar, 0 at near and 1 at far; normalised-reversed: 1 at near; "
-         "gl: depth buffer from -1 to 1; logarithmic: log(1 + planar)/log(1 + far)"},
+    PASS_ROWS(ao_settings, passes),
     {.name = "--layer-kind",
      .value = "KIND",
      .choices = layer_kinds,
@@ -171,25 +127,6 @@ static const arg pass_rows[] = {
      ARG_INTO(ARG_CHOICE, ao_settings, layer_kind),
      .help = "what the layers Z, layer2.Z ... are: surfaces that each may occlude, or in "
              "turn the front and the back of solids"},
-    {.name = "--near",
-     .value = "D",
-     ARG_RANGE(-1e9, 1e9),
-     .unit = "scene units",
-     ARG_INTO(ARG_NUMBER, ao_settings, z_near),
-     .help = "near plane of a depth between planes"},
-    {.name = "--far",
-     .value = "D",
-     ARG_RANGE(-1e9, INFINITY),
-     .unit = "scene units",
-     ARG_INTO(ARG_NUMBER, ao_settings, z_far),
-     .help = "its far plane; inf for an infinite projection"},
-    {.name = "--background",
-     .value = "D",
-     ARG_RANGE(1e-30, INFINITY),
-     .unit = "scene units",
-     ARG_INTO(ARG_NUMBER, ao_settings, background),
-     .computed = "1e10",
-     .help = "planar or radial depth from which on there is nothing"},
 };
 static const arg_table pass_table = ARG_TABLE("Passes", pass_rows);
 
@@ -266,54 +203,6 @@ static const char *const examples[] = {
     NULL,
 };
 
-static bool is_linear(const ao_settings *s)
-{
-    return s->depth_encoding.value == CRV_DEPTH_NORMALISED
-           || s->depth_encoding.value == CRV_DEPTH_NORMALISED_REVERSED || s->ortho.given;
-}
-
-static bool uses_far(const ao_settings *s)
-{
-    return s->depth_encoding.value == CRV_DEPTH_HARDWARE
-           || s->depth_encoding.value == CRV_DEPTH_REVERSED
-           || s->depth_encoding.value > CRV_DEPTH_DISPARITY;
-}
-
-static bool uses_near(const ao_settings *s)
-{
-    return uses_far(s) && s->depth_encoding.value != CRV_DEPTH_LOGARITHMIC;
-}
-
-static const char *depth_mistake(const ao_settings *s)
-{
-    const bool distance = s->depth_encoding.value == CRV_DEPTH_PLANAR
-                          || s->depth_encoding.value == CRV_DEPTH_RADIAL;
-    if (!uses_near(s) && s->z_near.given)
-        return "--near: is for --depth-encoding hardware, reversed, normalised, "
-               "normalised-reversed or gl; leave it out or add that";
-    if (!uses_far(s) && s->z_far.given)
-        return "--far: is for a --depth-encoding between planes; leave it out or add "
-               "that";
-    if (!distance && s->background.given)
-        return "--background: is for planar or radial depth; leave it out";
-    if (!uses_far(s))
-        return NULL;
-    if ((uses_near(s) && !s->z_near.given) || !s->z_far.given)
-        return uses_near(s) ? "--depth-encoding: such depth has near and far planes; add "
-                              "--near and --far"
-                            : "--depth-encoding: logarithmic depth has a far plane; add "
-                              "--far";
-    if (uses_near(s) && !is_linear(s) && s->z_near.value <= 0.0)
-        return "--near: must be greater than 0";
-    if (s->z_far.value <= (uses_near(s) ? s->z_near.value : 0.0))
-        return uses_near(s) ? "--far: must be greater than --near"
-                            : "--far: must be greater than 0";
-    if ((is_linear(s) || !uses_near(s)) && isinf(s->z_far.value))
-        return "--far: must be finite in an orthographic view, and for normalised and "
-               "logarithmic depth";
-    return NULL;
-}
-
 static bool exists(const char *path)
 {
     struct stat info;
@@ -366,10 +255,7 @@ static const char *shot_mistake(const ao_settings *s)
 
 static int check(const ao_settings *s, frame_list *list, view_list *views, report *r)
 {
-    const char *mistake = depth_mistake(s);
-    if (!mistake && s->normal_flip
-        && strspn(s->normal_flip, "xyz") != strlen(s->normal_flip))
-        mistake = "--normal-flip: names axes out of x, y and z, such as y or xz";
+    const char *mistake = pass_mistake(&s->passes, s->ortho.given);
     if (!mistake && estimate_is_of_relief(&s->common.options))
         mistake = "--characteristic field: frames have no relief; leave it out";
     if (!mistake)
@@ -391,31 +277,8 @@ static int check(const ao_settings *s, frame_list *list, view_list *views, repor
 
 static io_passes_request make_request(const ao_settings *s)
 {
-    io_passes_request request = {
-        .depth = s->depth,
-        .normal = s->normal,
-        .depth_format = crv_depth_format_planar(),
-        .normal_space = (io_normal_space)s->normal_space.value,
-        .remedies = {.depth = "choose with --depth NAME",
-                     .normal = "choose with --normal NAME, or --normal none",
-                     .normal_space = "say --normal-space view if that is what they are",
-                     .normal_flip = "add --normal-flip x, y or z",
-                     .encoding = "say so with --depth-encoding or --vfov",
-                     .camera = "give its vertical field of view with --vfov DEGREES, or "
-                               "--hfov, or --lens and --sensor (or --ortho HEIGHT for "
-                               "an orthographic one)"},
-    };
-    request.depth_format.encoding = (crv_depth_encoding)s->depth_encoding.value;
-    request.encoding_given = s->depth_encoding.given;
+    io_passes_request request = pass_request(&s->passes);
     request.keep_overscan = !s->crop;
-    if (uses_near(s))
-        request.depth_format.z_near = (float)s->z_near.value;
-    if (uses_far(s))
-        request.depth_format.z_far = (float)s->z_far.value;
-    for (int i = 0; s->normal_flip && s->normal_flip[i]; i++)
-        request.flip_normals[s->normal_flip[i] - 'x'] = true;
-    if (s->background.given)
-        request.depth_format.background = (float)s->background.value;
     request.fit_vfov = s->vfov_deg.given && isnan(s->vfov_deg.value);
     if (s->vfov_deg.given && !request.fit_vfov)
         request.vfov_rad = (float)(s->vfov_deg.value * 3.14159265358979323846 / 180.0);

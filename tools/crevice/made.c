@@ -41,16 +41,17 @@ void made_describe(const ao_settings *s, const crv_options *o, float vfov_rad,
             && crv_option_applies(option, o->method, o->filter))
             append(made, " %s=%.9g", option->key, crv_options_get(o, option));
     }
-    append(made, " depth=%s normal=%s space=%d flip=%s", s->depth ? s->depth : "",
-           s->normal ? s->normal : "", (int)s->normal_space.value,
-           s->normal_flip ? s->normal_flip : "");
-    if (s->depth_encoding.given)
-        append(made, " encoding=%d", (int)s->depth_encoding.value);
+    append(made, " depth=%s normal=%s space=%d flip=%s",
+           s->passes.depth ? s->passes.depth : "",
+           s->passes.normal ? s->passes.normal : "", (int)s->passes.normal_space.value,
+           s->passes.normal_flip ? s->passes.normal_flip : "");
+    if (s->passes.depth_encoding.given)
+        append(made, " encoding=%d", (int)s->passes.depth_encoding.value);
     if (s->layer_kind.given)
         append(made, " layers=%d", (int)s->layer_kind.value);
-    append_number(made, "near", &s->z_near);
-    append_number(made, "far", &s->z_far);
-    append_number(made, "background", &s->background);
+    append_number(made, "near", &s->passes.z_near);
+    append_number(made, "far", &s->passes.z_far);
+    append_number(made, "background", &s->passes.background);
     append_number(made, "vfov", &s->vfov_deg);
     if (s->vfov_deg.given && isnan(s->vfov_deg.value))
         append(made, ",%.9g", (double)vfov_rad);

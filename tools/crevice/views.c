@@ -50,7 +50,7 @@ const char *views_mistake(const ao_settings *s, view_list *out)
     if (!parse(s->views, out))
         return "--views: takes up to 8 different names with commas in between, such as "
                "left,right";
-    if (s->depth || (s->normal && strcmp(s->normal, "none") != 0))
+    if (s->passes.depth || (s->passes.normal && strcmp(s->passes.normal, "none") != 0))
         return "--views: finds the passes of each view by their names; leave out --depth "
                "and --normal";
     if (places && is_shared(s->output, out))

@@ -65,6 +65,34 @@ static void append_mesh(char out[COMMAND_SIZE], const source *s, const wish *w)
         append(out, " --guard-px %d", v->guard_px.value);
 }
 
+static void append_number(char out[COMMAND_SIZE], const char *flag, const arg_number *n)
+{
+    if (n->given)
+        append(out, " %s %.9g", flag, n->value);
+}
+
+static void append_text(char out[COMMAND_SIZE], const char *flag, const char *text)
+{
+    if (!text)
+        return;
+    append(out, " %s ", flag);
+    append_word(out, text);
+}
+
+static void append_passes(char out[COMMAND_SIZE], const pass_settings *p)
+{
+    append_text(out, "--depth", p->depth);
+    append_text(out, "--normal", p->normal);
+    append_text(out, "--normal-flip", p->normal_flip);
+    if (p->normal_space.given)
+        append_text(out, "--normal-space", pass_spaces[p->normal_space.value]);
+    if (p->depth_encoding.given)
+        append_text(out, "--depth-encoding", pass_encodings[p->depth_encoding.value]);
+    append_number(out, "--near", &p->z_near);
+    append_number(out, "--far", &p->z_far);
+    append_number(out, "--background", &p->background);
+}
+
 static void append_frame(char out[COMMAND_SIZE], const source *s, const wish *w)
 {
     const view_settings *v = s->settings;
@@ -75,6 +103,9 @@ static void append_frame(char out[COMMAND_SIZE], const source *s, const wish *w)
         append(out, " --vfov %s", exact_number((float)v->vfov_deg.value, 1.0, number));
     if (v->ortho.given)
         append(out, " --ortho %s", exact_number((float)v->ortho.value, 1.0, number));
+    if (v->layer_kind.given)
+        append_text(out, "--layer-kind", v->layer_kind.value == 0 ? "surfaces" : "solid");
+    append_passes(out, s->passes);
 }
 
 /* The accessibility of a half to a file named `output`. */

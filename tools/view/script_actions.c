@@ -11,7 +11,7 @@
 #include "panel.h"
 #include "script.h"
 
-enum { LAYOUT_US = 100000 };
+enum { LAYOUT_US = 2000000 };
 
 static const char *const no_half = "the half is left or right";
 static const char *const no_number = "a number is missing";
@@ -64,9 +64,13 @@ static bool has_size(script *s)
     canvas_size(a, &width, &height);
     if (width == s->number[0] && height == s->number[1])
         return is_still(s);
-    /* A window lays itself out some time after it was asked to. */
-    if (width == 1 || g_get_monotonic_time() - s->tried < LAYOUT_US)
+    /* A window lays itself out some time after it was asked to; if it cannot be of that
+     * size, it is asked again. */
+    const bool changed = width != s->number[2] || height != s->number[3];
+    if (width == 1 || (!changed && g_get_monotonic_time() - s->tried < LAYOUT_US))
         return false;
+    s->number[2] = width;
+    s->number[3] = height;
     const int factor = gtk_widget_get_scale_factor(a->canvas);
     int window_width, window_height;
     s->tried = g_get_monotonic_time();
@@ -84,6 +88,7 @@ static const char *do_size(script *s, char **word)
         return no_number;
     for (int i = 0; i < 2; i++)
         s->number[i] = (int32_t)size[i];
+    s->number[2] = s->number[3] = 0;
     s->done = has_size;
     return NULL;
 }

@@ -68,7 +68,7 @@ int session_open(session *s, const viewer_settings *settings, void (*ready)(void
 {
     const view_settings *v = &settings->view;
     *s = (session){.r = r, .ready = ready, .user = user};
-    int result = source_open(&s->source, v, settings->frames, r);
+    int result = source_open(&s->source, settings, r);
     if (result == EXIT_DONE)
         result = engine_open(&s->engine, &s->source, NULL, &v->common, r);
     if (result == EXIT_DONE)

@@ -31,11 +31,16 @@ const char *source_frame_name(const source *s, int32_t index, char *out, size_t 
 static int open_frames(source *s, const char *frames, report *r)
 {
     const view_settings *v = s->settings;
-    s->request = (io_passes_request){
-        .depth_format = crv_depth_format_planar(),
-        .keep_overscan = true, /* as `crevice ao` does */
-        .remedies = {.camera = "give its vertical field of view with --vfov DEGREES, or "
-                               "--ortho HEIGHT"}};
+    const char *mistake = pass_mistake(s->passes, v->ortho.given);
+    if (mistake) {
+        report_error(r, "%s", mistake);
+        return EXIT_USAGE;
+    }
+    s->request = pass_request(s->passes);
+    s->request.keep_overscan = true; /* as `crevice ao` does */
+    s->request.remedies.camera =
+        "give its vertical field of view with --vfov DEGREES, or "
+        "--ortho HEIGHT";
     if (v->vfov_deg.given)
         s->request.vfov_rad = (float)(v->vfov_deg.value * degree);
     if (v->ortho.given)
@@ -52,17 +57,17 @@ static int open_frames(source *s, const char *frames, report *r)
     return EXIT_DONE;
 }
 
-int source_open(source *s, const view_settings *settings, const char *frames, report *r)
+int source_open(source *s, const viewer_settings *settings, report *r)
 {
-    *s = (source){.settings = settings};
-    if (source_is_frame(settings->model))
-        return open_frames(s, frames, r);
-    if (frames) {
+    *s = (source){.settings = &settings->view, .passes = &settings->passes};
+    if (source_is_frame(settings->view.model))
+        return open_frames(s, settings->frames, r);
+    if (settings->frames) {
         report_error(r, "--frames: is for .exr frames, not for a mesh; leave it out");
         return EXIT_USAGE;
     }
-    const int result = view_check(settings, r);
-    return result == EXIT_DONE ? view_load(settings, &s->model, r) : result;
+    const int result = view_check(&settings->view, r);
+    return result == EXIT_DONE ? view_load(&settings->view, &s->model, r) : result;
 }
 
 void source_free(source *s)
@@ -142,6 +147,8 @@ buffers *source_read(source *s, int32_t index, estimator *e, report *r)
     }
     if (io_frame_load(name, &s->request, &frame, &r->logger) != 0)
         return NULL;
+    if (s->settings->layer_kind.given)
+        frame.desc.layer_kind = (crv_layers)s->settings->layer_kind.value;
     buffers *b = take_frame(&frame, e, r);
     if (b && !(s->radius > 0.0f))
         radius_suggest(e, &frame, &s->radius, r);

@@ -6,12 +6,13 @@
 #include "buffers.h"
 #include "common/estimate.h"
 #include "common/frames.h"
-#include "common/view.h"
+#include "common/viewer_args.h"
 #include "passes/passes.h"
 
 typedef struct source {
     const view_settings *settings;
-    scene *model; /* NULL: frames */
+    const pass_settings *passes; /* of frames */
+    scene *model;                /* NULL: frames */
     io_passes_request request;
     frame_list list; /* of a shot; empty: one frame */
     int32_t frame_count;
@@ -22,9 +23,9 @@ typedef struct source {
 /* Whether INPUT is a frame, by its extension: .exr, .png, .pfm. */
 bool source_is_frame(const char *input);
 
-/* Loads the mesh, or sees to it that there are frames. `frames`: a range, or NULL.
- * Returns an exit code; free it in any case. */
-int source_open(source *s, const view_settings *settings, const char *frames, report *r);
+/* Loads the mesh, or sees to it that there are frames; settings must outlive it. Returns
+ * an exit code; free it in any case. */
+int source_open(source *s, const viewer_settings *settings, report *r);
 void source_free(source *s);
 
 /* Ray-casts a view of the mesh; NULL if it fails or s->stop was set. */
