@@ -482,6 +482,58 @@ static void test_levels(void **state)
     support_forget();
 }
 
+/* A frame of Blender with the passes of a compositor's day: 39 channels with spaces in
+ * their names, whose bits are any, as those of Cryptomattes are. */
+static void test_many_channels(void **state)
+{
+    static const char *const layers[] = {"AO.RGB",
+                                         "Combined.RGBA",
+                                         "CryptoObject00.rgba",
+                                         "CryptoObject01.rgba",
+                                         "Crypto02.rgba",
+                                         "Albedo.RGB",
+                                         "Denoising Depth.Z",
+                                         "Denoising Normal.XYZ",
+                                         "Depth.Z",
+                                         "IndexOB.X",
+                                         "Mist.Z",
+                                         "Normal.XYZ",
+                                         "Position.XYZ",
+                                         "Vector.XYZW"};
+    enum { CHANNELS = 39, WIDE = 20, HIGH = 33 };
+    static char names[CHANNELS][64];
+    static uint32_t bits[CHANNELS][WIDE * HIGH];
+    const char *list[CHANNELS];
+    const float *planes[CHANNELS];
+    const char *input = support_path("blender.exr"), *output = support_path("copy.exr");
+    uint32_t random = 12345;
+    int count = 0;
+    (void)state;
+    for (size_t i = 0; i < COUNT(layers); i++) {
+        const char *dot = strchr(layers[i], '.');
+        for (const char *letter = dot + 1; *letter; letter++, count++) {
+            assert_true(count < CHANNELS);
+            snprintf(names[count], sizeof names[0], "View Layer.%.*s.%c",
+                     (int)(dot - layers[i]), layers[i], *letter);
+            for (int k = 0; k < WIDE * HIGH; k++) /* Numerical Recipes' generator */
+                bits[count][k] = random = random * 1664525u + 1013904223u;
+            list[count] = names[count];
+            planes[count] = (const float *)(const void *)bits[count];
+        }
+    }
+    assert_int_equal(count, CHANNELS);
+    support_make_plain_exr(input, list, CHANNELS, WIDE, HIGH, planes);
+    io_image picture = make_picture(0, 0, WIDE, HIGH);
+    assert_int_equal(append(input, output, "View Layer.Depth.Z", "View Layer.AO2",
+                            &picture, &no_options),
+                     0);
+    expect_same_pixels(input, output);
+    expect_same_attributes(input, output, 1);
+    expect_picture(output, "View Layer.AO2", &picture);
+    io_image_free(&picture);
+    support_forget();
+}
+
 /* What is multiplied, by hand. */
 static void test_multiplied(void **state)
 {
@@ -591,15 +643,12 @@ static void test_cut_off(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_compressions),
-                                       cmocka_unit_test(test_subsampled_neighbours),
-                                       cmocka_unit_test(test_upside_down),
-                                       cmocka_unit_test(test_attributes),
-                                       cmocka_unit_test(test_parts),
-                                       cmocka_unit_test(test_clashes),
-                                       cmocka_unit_test(test_levels),
-                                       cmocka_unit_test(test_multiplied),
-                                       cmocka_unit_test(test_multiplied_types),
-                                       cmocka_unit_test(test_cut_off)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_compressions), cmocka_unit_test(test_subsampled_neighbours),
+        cmocka_unit_test(test_upside_down),  cmocka_unit_test(test_attributes),
+        cmocka_unit_test(test_parts),        cmocka_unit_test(test_clashes),
+        cmocka_unit_test(test_levels),       cmocka_unit_test(test_many_channels),
+        cmocka_unit_test(test_multiplied),   cmocka_unit_test(test_multiplied_types),
+        cmocka_unit_test(test_cut_off)};
     return cmocka_run_group_tests(tests, support_setup, support_teardown);
 }

@@ -35,3 +35,67 @@ while read -r name file eye target up vfov radius; do
     at_most "$(number rmse)" 0.15 "$name: RMSE from the renderer's"
     at_least "$(number ssim)" 0.8 "$name: SSIM with the renderer's"
 done <views.txt
+
+# A shot of Blender keeps all its channels, bit by bit, and gets AO beside them.
+cases=$CREVICE_SHARED/cases/blender_shot
+[ -e "$cases/shot.0001.exr" ] || exit 0
+good ao "$cases/shot.####.exr" --frames 1,8,16,24 --lens 35 --append -o "shot.####.exr"
+for frame in 0001 0008 0016 0024; do
+    python3 - "$cases/shot.$frame.exr" shot.$frame.exr <<'END' || fail "the copy of $frame"
+# Uncompresses both files by the rules of the format: scanlines, ZIP, 16 at a time.
+import struct, sys, zlib
+
+def read(path):
+    data = open(path, "rb").read()
+    at, attributes = 8, {}
+    while data[at]:
+        name, _, rest = data[at:at + 600].partition(b"\0")
+        kind = rest.partition(b"\0")[0]
+        at += len(name) + len(kind) + 2
+        size, = struct.unpack_from("<i", data, at)
+        attributes[name] = (kind, data[at + 4:at + 4 + size])
+        at += 4 + size
+    assert attributes[b"compression"][1] == b"\3"
+    x0, y0, x1, y1 = struct.unpack("<4i", attributes[b"dataWindow"][1])
+    width, channels, p = x1 - x0 + 1, [], attributes[b"channels"][1]
+    while p[0]:
+        name, _, rest = p.partition(b"\0")
+        channels.append((name, struct.unpack_from("<i", rest)[0]))
+        p = rest[16:]
+    pixels = {name: b"" for name, _ in channels}
+    for i in range((y1 - y0) // 16 + 1):
+        offset, = struct.unpack_from("<Q", data, at + 1 + 8 * i)
+        y, size = struct.unpack_from("<2i", data, offset)
+        lines = min(16, y1 + 1 - y)
+        row = sum(width * (2 if kind == 1 else 4) for _, kind in channels)
+        chunk = data[offset + 8:offset + 8 + size]
+        if size < row * lines:
+            raw = bytearray(zlib.decompress(chunk))
+            for k in range(1, len(raw)):
+                raw[k] = (raw[k - 1] + raw[k] - 128) & 255
+            half = (len(raw) + 1) // 2
+            chunk = bytearray(len(raw))
+            chunk[0::2], chunk[1::2] = raw[:half], raw[half:]
+        k = 0
+        for _ in range(lines):
+            for name, kind in channels:
+                size = width * (2 if kind == 1 else 4)
+                pixels[name] += bytes(chunk[k:k + size])
+                k += size
+    return attributes, dict(channels), pixels
+
+before, kinds_before, pixels_before = read(sys.argv[1])
+after, kinds_after, pixels_after = read(sys.argv[2])
+assert len(pixels_before) == 39 and len(pixels_after) == 40
+for name, kind in kinds_before.items():
+    assert kinds_after[name] == kind and pixels_after[name] == pixels_before[name], name
+for name, value in before.items():
+    assert name == b"channels" or after[name] == value, name
+END
+    good compare --json shot.$frame.exr shot.$frame.exr --channel AO \
+        --channel-b "View Layer.AO.R"
+    echo "shot.$frame: RMSE $(number rmse) from Blender's pass of 4 samples," \
+        "mean $(number mean_a), Blender's $(number mean_b)"
+    # Noise of 4 samples is most of it.
+    at_most "$(number rmse)" 0.25 "shot.$frame: RMSE from Blender's pass"
+done
