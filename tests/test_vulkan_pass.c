@@ -393,6 +393,8 @@ static void bad_passes_are_refused_with_one_line(void **state)
     REFUSED(UNSUPPORTED, d.normal_format = VK_FORMAT_R64G64_SFLOAT);
     REFUSED(UNSUPPORTED, d.result_format = VK_FORMAT_D32_SFLOAT);
     REFUSED(INVALID_ARGUMENT, d.half_filters = (crv_vulkan_half)3);
+    REFUSED(INVALID_ARGUMENT, d.depth_layout = (crv_vulkan_depth_layout)3);
+    REFUSED(INVALID_ARGUMENT, d.level_px = 0);
 #undef REFUSED
     d = scene_pass_desc(e);
     assert_refused(&log, crv_vulkan_pass_create(context, &options, &size, NULL, &pass),
@@ -415,6 +417,60 @@ static void bad_passes_are_refused_with_one_line(void **state)
     crv_context_destroy(context);
     crv_vulkan_pass_destroy(NULL);
     assert_int_equal(crv_vulkan_pass_bytes(NULL), 0);
+}
+
+static void bad_settings_of_plans_are_refused_with_one_line(void **state)
+{
+    scene_lines log = {0};
+    crv_context *context = scene_context(*state, &log), *cpu = NULL;
+    const crv_vulkan_depth_layout linear = CRV_VULKAN_DEPTH_LINEAR;
+    const crv_vulkan_half off = CRV_VULKAN_HALF_OFF;
+    assert_refused(&log,
+                   crv_vulkan_context_set_plans(context, (crv_vulkan_depth_layout)3, off),
+                   CRV_ERROR_INVALID_ARGUMENT);
+    assert_refused(&log,
+                   crv_vulkan_context_set_plans(context, linear, (crv_vulkan_half)3),
+                   CRV_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(crv_vulkan_context_set_plans(NULL, linear, off),
+                     CRV_ERROR_INVALID_ARGUMENT);
+    crv_context_desc desc;
+    crv_context_desc_init(&desc, sizeof desc);
+    desc.logger = (crv_logger){.fn = scene_keep_line, .user = &log};
+    assert_int_equal(crv_context_create(&desc, &cpu), CRV_OK);
+    assert_refused(&log, crv_vulkan_context_set_plans(cpu, linear, off),
+                   CRV_ERROR_UNSUPPORTED);
+    crv_context_destroy(cpu);
+    crv_context_destroy(context);
+}
+
+/* It stays with a line, and so does what was made with it. */
+static void a_context_is_not_destroyed_before_its_passes(void **state)
+{
+    engine *g = *state;
+    scene_lines log = {0};
+    const scene_encoding *e = &ENCODINGS[0];
+    crv_context *context = scene_context(g, &log);
+    const crv_options options = scene_options(e);
+    const crv_vulkan_pass_desc desc = scene_pass_desc(e);
+    crv_vulkan_pass *pass = NULL;
+    scene *s = malloc(sizeof *s);
+    assert_non_null(s);
+    scene_make(s, e, 1);
+    scene_images in = scene_upload(g, s, e);
+    assert_int_equal(crv_vulkan_pass_create(context, &options, &s->desc, &desc, &pass),
+                     CRV_OK);
+    crv_context_destroy(context);
+    assert_int_equal(log.errors, 1);
+    assert_non_null(strstr(log.last, "destroy them first"));
+    const crv_vulkan_frame frame = scene_frame(s, e, &in);
+    assert_int_equal(crv_vulkan_pass_record(pass, engine_begin(g, 0), &frame), CRV_OK);
+    engine_submit(g, 0);
+    engine_wait(g);
+    crv_vulkan_pass_destroy(pass);
+    crv_context_destroy(context); /* or the layer misses it when the device goes */
+    assert_int_equal(log.errors, 1);
+    scene_free(g, &in);
+    free(s);
 }
 
 static void what_lavapipe_would_break_off_is_refused_there(void **state)
@@ -566,6 +622,8 @@ int main(void)
         cmocka_unit_test(a_plan_has_no_times_before_its_first_run),
         cmocka_unit_test(structs_of_every_earlier_size_are_taken),
         cmocka_unit_test(bad_passes_are_refused_with_one_line),
+        cmocka_unit_test(bad_settings_of_plans_are_refused_with_one_line),
+        cmocka_unit_test(a_context_is_not_destroyed_before_its_passes),
         cmocka_unit_test(what_lavapipe_would_break_off_is_refused_there),
         cmocka_unit_test(bad_frames_are_refused_with_one_line),
         cmocka_unit_test(bad_hosts_are_refused_with_one_line),
