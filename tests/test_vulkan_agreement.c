@@ -186,7 +186,7 @@ static int check(const settings *s, const devices *d, const char *test,
  * Returns the number of faults. */
 static int check_many(const settings *s, const devices *d)
 {
-    enum { FEW_PIXELS = 24 }; /* a side, at most */
+    enum { FEW_PIXELS = 14 }; /* a side, at most */
     tally t = {0};
     int faults = 0;
     for (int32_t i = 0; s->cases > 0 && i < crv_method_count(); i++) {
@@ -217,7 +217,8 @@ static int check_all(const settings *s, const devices *d)
     for (int32_t i = 0; i < crv_method_count() + crv_filter_count(); i++) {
         const int32_t k = i - crv_method_count();
         const crv_filter *filter = k >= 0 ? crv_filter_at(k) : NULL;
-        const crv_method *method = crv_method_at(k >= 0 ? 0 : i);
+        /* ssao is the quickest to compile. */
+        const crv_method *method = filter ? crv_method_find("ssao") : crv_method_at(i);
         const char *name = filter ? filter->name : method->name;
         if (s->test && strcmp(s->test, name) != 0)
             continue;
