@@ -14,7 +14,8 @@ enum {
     RADIUS = 3,
     LEFT = 16, /* as much as is read before a tile, or more; lines stay aligned */
     PITCH = LEFT + CRV__FILTER_TILE_WIDTH + LEFT,
-    ROWS = CRV__FILTER_TILE_HEIGHT + 2 * RADIUS
+    STRIP = CRV__FILTER_TILE_HEIGHT / 2, /* rows at once: hosts' stacks may be small */
+    ROWS = STRIP + 2 * RADIUS
 };
 
 static const float LONELY = 0.07f, LEAST = 1e-9f;
@@ -173,10 +174,9 @@ CRV__INLINE void store_row(const crv__frame *f, const crv__plane *input, const b
     }
 }
 
-void CRV__NAME(edges7)(const crv__frame *f, const crv__plane *input,
-                       const crv__plane *out, crv__tile tile);
-void CRV__NAME(edges7)(const crv__frame *f, const crv__plane *input,
-                       const crv__plane *out, crv__tile tile)
+/* Both passes over a part of a tile, at most STRIP rows. */
+CRV__NOINLINE void filter_strip(const crv__frame *f, const crv__plane *input,
+                                const crv__plane *out, crv__tile tile)
 {
     const int32_t width = tile.x1 - tile.x0, height = tile.y1 - tile.y0;
     const int32_t whole = (width + CRV__LANES - 1) / CRV__LANES * CRV__LANES;
@@ -197,4 +197,17 @@ void CRV__NAME(edges7)(const crv__frame *f, const crv__plane *input,
     for (int32_t y = tile.y0; y < tile.y1; y++)
         store_row(f, input, &b, y - top, tile.x0, y, width,
                   crv__plane_at(out, tile.x0, y));
+}
+
+void CRV__NAME(edges7)(const crv__frame *f, const crv__plane *input,
+                       const crv__plane *out, crv__tile tile);
+void CRV__NAME(edges7)(const crv__frame *f, const crv__plane *input,
+                       const crv__plane *out, crv__tile tile)
+{
+    for (int32_t y = tile.y0; y < tile.y1; y += STRIP) {
+        crv__tile strip = tile;
+        strip.y0 = y;
+        strip.y1 = y + STRIP < tile.y1 ? y + STRIP : tile.y1;
+        filter_strip(f, input, out, strip);
+    }
 }
