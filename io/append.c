@@ -300,6 +300,23 @@ static void discard(planner *p)
     io__exr_close(&p->copy.in);
 }
 
+/* Finds a part that is copied as it is and of which chunks lie beyond the file. Those of
+ * deep and lossy parts show it when they are copied: to be sure before, they would have
+ * to be unpacked. */
+static int check_whole(io__exr *exr, int part)
+{
+    exr_storage_t storage;
+    exr_compression_t compression = EXR_COMPRESSION_NONE;
+    const exr_result_t code = exr_get_storage(exr->context, part, &storage);
+    if (code)
+        return io__exr_fail(exr, code, "its EXR header is damaged");
+    exr_get_compression(exr->context, part, &compression);
+    if (storage == EXR_STORAGE_DEEP_SCANLINE || storage == EXR_STORAGE_DEEP_TILED
+        || !io__exr_is_lossless(compression))
+        return 0;
+    return io__exr_check_chunks(exr, part);
+}
+
 static int write_copy(planner *p, const char *output)
 {
     io__output opened;
@@ -327,6 +344,8 @@ static int run(const char *input, const char *output, const io_addition *additio
         for (int part = 0; !result && part < p.copy.in.part_count; part++)
             if (p.copy.parts[part].is_changed)
                 result = io__exr_check_part(&p.copy.in, part);
+            else
+                result = check_whole(&p.copy.in, part);
         if (!result && output)
             result = write_copy(&p, output);
         discard(&p);
@@ -347,15 +366,6 @@ int io_append_check(const char *input, const io_addition *additions, int32_t cou
     return run(input, NULL, additions, count, options, log);
 }
 
-/* Whether all chunks of a part lie in the file. */
-static bool is_whole(io__exr *exr, int part)
-{
-    exr_storage_t storage;
-    return !exr_get_storage(exr->context, part, &storage)
-           && (storage == EXR_STORAGE_DEEP_SCANLINE || storage == EXR_STORAGE_DEEP_TILED
-               || !io__exr_check_chunks(exr, part));
-}
-
 void io_append_made(const char *path, const char *name, char made[IO_MADE_SIZE])
 {
     io__file file;
@@ -370,7 +380,7 @@ void io_append_made(const char *path, const char *name, char made[IO_MADE_SIZE])
         for (int part = 0; part < exr.part_count; part++) {
             int32_t length = 0;
             const char *text = NULL;
-            whole = whole && is_whole(&exr, part);
+            whole = whole && !check_whole(&exr, part);
             if (!exr_attr_get_string(exr.context, part, attribute, &length, &text)
                 && text)
                 snprintf(made, IO_MADE_SIZE, "%s", text);

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Fuzzers: fuzz_NAME for each target where clang's libFuzzer is asked for (CREVICE_FUZZ),
 # else one program that runs seeds and kept inputs through all of them.
-set(fuzz_targets image frame api mesh gltf pipe text checkpoint sky cameras)
+set(fuzz_targets image frame api mesh gltf pipe text checkpoint sky cameras append)
 find_package(assimp REQUIRED)
 find_package(embree CONFIG REQUIRED)
 find_package(PkgConfig REQUIRED)
@@ -50,6 +50,7 @@ set(fuzz_step_gltf 1)
 set(fuzz_step_checkpoint 1)
 set(fuzz_step_pipe 1)
 set(fuzz_step_cameras 1)
+set(fuzz_step_append 97) # each copy waits for the disk
 set(fuzz_step_mesh 2999) # each run forks
 set(fuzz_step_image_packed 23)
 

@@ -37,6 +37,8 @@ void fuzz_checkpoint(const uint8_t *data, size_t size);
 void fuzz_sky(const uint8_t *data, size_t size);
 /* A file of cameras, JSON or .chan, behind a byte for the order of angles. */
 void fuzz_cameras(const uint8_t *data, size_t size);
+/* An EXR file to copy with a further channel, and its Cryptomattes. */
+void fuzz_append(const uint8_t *data, size_t size);
 
 /* support.c */
 

@@ -27,10 +27,10 @@ static const struct {
     const char *name;
     void (*run)(const uint8_t *data, size_t size);
 } targets[] = {
-    {"image", fuzz_image},     {"frame", fuzz_frame}, {"api", fuzz_api},
-    {"mesh", fuzz_mesh},       {"gltf", fuzz_gltf},   {"pipe", fuzz_pipe},
-    {"text", fuzz_text},       {"sky", fuzz_sky},     {"checkpoint", fuzz_checkpoint},
-    {"cameras", fuzz_cameras},
+    {"image", fuzz_image},     {"frame", fuzz_frame},   {"api", fuzz_api},
+    {"mesh", fuzz_mesh},       {"gltf", fuzz_gltf},     {"pipe", fuzz_pipe},
+    {"text", fuzz_text},       {"sky", fuzz_sky},       {"checkpoint", fuzz_checkpoint},
+    {"cameras", fuzz_cameras}, {"append", fuzz_append},
 };
 enum { TARGET_COUNT = sizeof targets / sizeof *targets };
 

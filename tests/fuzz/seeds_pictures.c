@@ -76,12 +76,51 @@ static void write_compressed(void)
             support_make_exr(name, &part, 1, NULL, NULL, NULL);
             seeds_take("image_packed", name, name, "", "");
             seeds_take("frame_packed", name, name, "", "a\x02\x01\x03");
+            seeds_take("append", name, name, "", "");
             remove(name);
         }
 }
 
+/* Objects by their names, and an eye, in two parts; no pixel is packed. */
+static void write_parts(void)
+{
+    const exr_attr_v2f_t centre = {.x = 0.0f, .y = 0.0f};
+    const exr_attr_box2i_t window = {.max = {.x = 1, .y = 1}};
+    const float line[8] = {1.0f, 2.0f};
+    exr_context_t context = NULL;
+    int failed = exr_start_write(&context, "parts.exr", EXR_WRITE_FILE_DIRECTLY, NULL);
+    for (int part = 0; part < 2; part++) {
+        int index;
+        failed |= exr_add_part(context, part ? "c" : "z", EXR_STORAGE_SCANLINE, &index);
+        failed |= exr_initialize_required_attr(context, part, &window, &window, 1.0f,
+                                               &centre, 1.0f, EXR_LINEORDER_INCREASING_Y,
+                                               EXR_COMPRESSION_NONE);
+        for (int c = 0; c < (part ? 4 : 1); c++) {
+            char name[16] = "Z";
+            if (part)
+                snprintf(name, sizeof name, "o00.%c", "ABGR"[c]);
+            failed |= exr_add_channel(context, part, name, EXR_PIXEL_FLOAT,
+                                      EXR_PERCEPTUALLY_LINEAR, 1, 1);
+        }
+    }
+    failed |= exr_attr_set_string(context, 0, "view", "left");
+    failed |= exr_attr_set_string(context, 1, "cryptomatte/1/name", "o");
+    failed |= exr_attr_set_string(context, 1, "cryptomatte/1/hash", "MurmurHash3_32");
+    failed |= exr_attr_set_string(context, 1, "cryptomatte/1/manifest",
+                                  "{\"hero\":\"3f800000\"}");
+    failed |= exr_write_header(context);
+    for (int part = 0; part < 2; part++)
+        for (int y = 0; y < 2; y++)
+            failed |= exr_write_scanline_chunk(context, part, y, line,
+                                               (part ? 8 : 2) * sizeof *line);
+    FUZZ_CHECK(!failed && !exr_finish(&context), "parts.exr");
+    seeds_take("append", "parts.exr", "parts.exr", "", "");
+    remove("parts.exr");
+}
+
 void seeds_write_pictures(void)
 {
+    write_parts();
     write_plain();
     write_compressed();
 }
