@@ -2,6 +2,8 @@
 #include "knob.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 
 /* Ends of a range this far apart ask for a logarithmic slider. */
 #define MUCH 200.0
@@ -60,6 +62,14 @@ double knob_position(const knob *k, double value)
     return (v - k->min) / (k->max - k->min);
 }
 
+/* What a hand on a slider means. */
+static double three_digits(double value)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.3g", value);
+    return strtod(text, NULL);
+}
+
 double knob_value(const knob *k, double position)
 {
     const double p = clamped(position, 0.0, 1.0);
@@ -68,6 +78,6 @@ double knob_value(const knob *k, double position)
         value = k->min * pow(k->max / k->min, p);
     else if (k->scale == KNOB_LOG_ZERO)
         value = k->even * sinh(p * asinh(k->max / k->even));
-    value = clamped(value, k->min, k->max);
-    return k->whole ? round(value) : value;
+    value = k->whole ? round(value) : three_digits(value);
+    return clamped(value, k->min, k->max);
 }

@@ -28,7 +28,7 @@ knob knob_of(const crv_option *option, double usual);
 /* Whether a slider is of use: the number of a frame or a seed is typed in. */
 bool knob_is_slider(const crv_option *option);
 
-/* Positions are clamped to [0, 1]. */
+/* Positions are clamped to [0, 1]. Values have three digits, or are whole or an end. */
 double knob_position(const knob *k, double value);
 double knob_value(const knob *k, double position);
 

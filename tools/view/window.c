@@ -78,6 +78,17 @@ static const char *const help_text =
     "  Ctrl+S: save picture        Ctrl+D: dark\n"
     "  F1: this                    Ctrl+Q: quit";
 
+static gboolean on_help_key(GtkEventControllerKey *keys, guint key, guint code,
+                            GdkModifierType state, gpointer user)
+{
+    (void)keys;
+    (void)code;
+    (void)state;
+    if (key == GDK_KEY_Escape)
+        gtk_window_close(GTK_WINDOW(user));
+    return key == GDK_KEY_Escape;
+}
+
 static void show_keys(app *a)
 {
     GtkWidget *window = gtk_window_new(), *label = gtk_label_new(NULL);
@@ -92,6 +103,9 @@ static void show_keys(app *a)
     gtk_window_set_transient_for(GTK_WINDOW(window), GTK_WINDOW(a->window));
     gtk_window_set_destroy_with_parent(GTK_WINDOW(window), TRUE);
     gtk_window_set_child(GTK_WINDOW(window), label);
+    GtkEventController *keys = gtk_event_controller_key_new();
+    g_signal_connect(keys, "key-pressed", G_CALLBACK(on_help_key), window);
+    gtk_widget_add_controller(window, keys);
     gtk_window_present(GTK_WINDOW(window));
 }
 
