@@ -99,3 +99,17 @@ END
     # Noise of 4 samples is most of it.
     at_most "$(number rmse)" 0.25 "shot.$frame: RMSE from Blender's pass"
 done
+
+# How its world normals are read, which no metadata say, is decided once: resumed, in
+# several processes and on a farm there are the same bits.
+shot="$cases/shot.####.exr"
+good ao "$shot" --frames 1,8,16,24 --lens 35 -o "whole.####.exr"
+good ao "$shot" --frames 1,8 --lens 35 -o "again.####.exr"
+good ao "$shot" --frames 1,8,16,24 --lens 35 --skip-existing -o "again.####.exr"
+good ao "$shot" --frames 1,8,16,24 --lens 35 --jobs 3 -o "jobs.####.exr"
+good ao "$shot" --frames 24 --lens 35 --radius-frame 1 -o "farm.####.exr"
+for frame in 0001 0008 0016 0024; do
+    cmp -s whole.$frame.exr again.$frame.exr || fail "resumed: $frame has other bits"
+    cmp -s whole.$frame.exr jobs.$frame.exr || fail "--jobs: $frame has other bits"
+done
+cmp -s whole.0024.exr farm.0024.exr || fail "--radius-frame: 0024 has other bits"
