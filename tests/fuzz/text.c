@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "common/nearest.h"
+#include "common/options_file.h"
 #include "common/frames.h"
 
 static const command *const commands[] = {
@@ -34,6 +35,28 @@ static void parse(const command *c, int count, char **words)
         FUZZ_CHECK(crv_options_check(&s->options, NULL) == CRV_OK, "options taken");
     }
     free(settings);
+}
+
+/* The same words as a file of options. */
+static void read_options(const char *text, size_t size)
+{
+    report r;
+    report_init(&r);
+    r.logger = fuzz_logger;
+    r.quiet = true;
+    options_file file;
+    crv_options o;
+    crv_options_init(&o, sizeof o, NULL);
+    const int before = fuzz_errors;
+    const char *path = fuzz_file("input", (const uint8_t *)text, size);
+    int result = options_file_read(path, &file, &r);
+    if (result == EXIT_DONE)
+        result = options_file_apply(&file, &o, &r);
+    options_file_free(&file);
+    const int errors = r.errors + fuzz_errors - before;
+    FUZZ_CHECK((result == EXIT_DONE) == (errors == 0), "exit code %d, %d lines", result,
+               errors);
+    FUZZ_CHECK(crv_options_check(&o, NULL) == CRV_OK, "options of a file");
 }
 
 /* Whatever is set passes the check, and is set again from its own value. */
@@ -75,6 +98,9 @@ void fuzz_text(const uint8_t *data, size_t size)
     int count = 0;
     if (size < 2 || size > MAX_SIZE)
         return;
+    const int kind = data[0] % (COMMAND_COUNT + 2);
+    if (kind == COMMAND_COUNT)
+        read_options((const char *)data + 1, size - 1);
     char *copy = malloc(size);
     memcpy(copy, data + 1, size - 1);
     copy[size - 1] = '\0';
@@ -85,7 +111,6 @@ void fuzz_text(const uint8_t *data, size_t size)
         words[count++] = at;
         at = end ? end + 1 : NULL;
     }
-    const int kind = data[0] % (COMMAND_COUNT + 2);
     if (kind < COMMAND_COUNT)
         parse(commands[kind], count, words);
     else if (kind == COMMAND_COUNT)
