@@ -158,6 +158,38 @@ static void results_are_layers_of_an_array(void **state)
     stage_close(t);
 }
 
+/* Tiles of a larger picture: one pass for all, which have noise by where they lie. */
+static void origins_of_frames_add_to_those_of_a_pass(void **state)
+{
+    static const struct {
+        int32_t pass, frame;
+    } ORIGINS[] = {{6, 0}, {1, 5}, {0, 6}, {0, 0}};
+    scene_encoding e = STAGE_USUAL;
+    e.filter = NULL; /* it would hide the noise */
+    stage *t = stage_open(*state, &e, 150, 97);
+    const crv_options options = scene_options(&e);
+    crv_vulkan_frame frame = scene_frame(t->s, &e, &t->in);
+    float *got[4];
+    for (int i = 0; i < 4; i++) {
+        crv_gbuffer_desc size = t->s->desc;
+        const crv_vulkan_pass_desc desc = scene_pass_desc(&e);
+        crv_vulkan_pass *pass = NULL;
+        size.origin_x = size.origin_y = ORIGINS[i].pass;
+        frame.origin_x = frame.origin_y = ORIGINS[i].frame;
+        assert_int_equal(
+            crv_vulkan_pass_create(t->context, &options, &size, &desc, &pass), CRV_OK);
+        got[i] = stage_drawn(t, pass, &frame);
+        crv_vulkan_pass_destroy(pass);
+    }
+    const size_t bytes = stage_pixels(t) * sizeof(float);
+    assert_memory_equal(got[0], got[1], bytes);
+    assert_memory_equal(got[0], got[2], bytes);
+    assert_true(memcmp(got[0], got[3], bytes) != 0);
+    for (int i = 0; i < 4; i++)
+        free(got[i]);
+    stage_close(t);
+}
+
 /* ---- frames in flight ---- */
 
 enum { FLIGHT = 8 };
@@ -253,6 +285,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(views_share_images_and_a_command_buffer),
         cmocka_unit_test(results_are_layers_of_an_array),
+        cmocka_unit_test(origins_of_frames_add_to_those_of_a_pass),
         cmocka_unit_test(eight_frames_of_two_views_are_in_flight),
         cmocka_unit_test(the_validation_layer_is_silent),
     };

@@ -27,7 +27,14 @@ print(f"{sys.argv[3]}: {beyond} of {len(a)} pixels beyond 2e-3")
 sys.exit(len(a) != len(b) or beyond > len(a) / 1000)
 END
 
-methods="hbao gtao hsao raymarch alchemy vo containment vao ssao"
+# names LIST: of all methods, or filters.
+names()
+{
+    "$tool" methods --json | python3 -c 'import json, sys
+print(*(entry["name"] for entry in json.load(sys.stdin)[sys.argv[1]]))' "$1"
+}
+methods=$(names methods)
+filters=$(names filters)
 
 # agrees NAME RADIUS METHOD FILTER: one picture of NAME.exr
 agrees()
@@ -44,8 +51,8 @@ all_agree()
     for method in $methods; do
         agrees "$1" "$2" "$method" bilateral13
     done
-    for filter in none box4 edges7 gauss5; do
-        agrees "$1" "$2" hbao $filter
+    for filter in none $filters; do
+        [ "$filter" = bilateral13 ] || agrees "$1" "$2" hbao "$filter"
     done
 }
 
