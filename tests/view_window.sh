@@ -188,6 +188,8 @@ bad 1 'vfov' view colour.pfm
 bad 2 'add --near and --far' view colour.pfm --depth-encoding reversed
 bad 2 'frames' view 'shot.#.exr'
 bad 2 'did you mean' view builtin:corner --methd gtao
+echo 'as left lit' >lit.txt
+bad 1 'lit.txt:1: as left lit: ' view frame.exr --script lit.txt
 echo dance >dance.txt
 bad 1 'dance.txt:1: dance: no such action' view builtin:corner --script dance.txt
 bad 1 'no.txt: cannot be read' view builtin:corner --script no.txt

@@ -1,26 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "command_text.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "append.h"
 #include "common/exact.h"
 #include "option_text.h"
 #include "target.h"
-
-#ifdef __GNUC__
-__attribute__((format(printf, 2, 3)))
-#endif
-static void
-append(char out[COMMAND_SIZE], const char *format, ...)
-{
-    const size_t used = strlen(out);
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(out + used, COMMAND_SIZE - used, format, arguments);
-    va_end(arguments);
-}
 
 /* As one word of a shell. */
 static void append_word(char out[COMMAND_SIZE], const char *word)
@@ -28,23 +15,23 @@ static void append_word(char out[COMMAND_SIZE], const char *word)
     const char *plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
                         "_-./:,=+@%";
     if (word[0] != '\0' && strspn(word, plain) == strlen(word)) {
-        append(out, "%s", word);
+        append_to(out, COMMAND_SIZE, "%s", word);
         return;
     }
-    append(out, "'");
+    append_to(out, COMMAND_SIZE, "'");
     for (; *word != '\0'; word++)
-        append(out, *word == '\'' ? "'\\''" : "%c", *word);
-    append(out, "'");
+        append_to(out, COMMAND_SIZE, *word == '\'' ? "'\\''" : "%c", *word);
+    append_to(out, COMMAND_SIZE, "'");
 }
 
 static void append_device(char out[COMMAND_SIZE], const common_settings *c)
 {
     if (c->device) {
-        append(out, " --device ");
+        append_to(out, COMMAND_SIZE, " --device ");
         append_word(out, c->device);
     }
     if (c->exact)
-        append(out, " --exact");
+        append_to(out, COMMAND_SIZE, " --exact");
 }
 
 /* What of the G-buffer is not as it is by itself. */
@@ -53,29 +40,29 @@ static void append_mesh(char out[COMMAND_SIZE], const source *s, const wish *w)
     const view_settings *v = s->settings;
     char camera[384];
     append_word(out, v->model);
-    append(out, " --size %dx%d %s", w->width, w->height,
-           exact_view(s->model, &w->view, camera));
+    append_to(out, COMMAND_SIZE, " --size %dx%d %s", w->width, w->height,
+              exact_view(s->model, &w->view, camera));
     if (v->layers.value > 1)
-        append(out, " --layers %d", v->layers.value);
+        append_to(out, COMMAND_SIZE, " --layers %d", v->layers.value);
     if (v->layer_kind.value != CRV_LAYERS_SURFACES)
-        append(out, " --layer-kind solid");
+        append_to(out, COMMAND_SIZE, " --layer-kind solid");
     if (v->normals_from.value != 0)
-        append(out, " --normals-from face");
+        append_to(out, COMMAND_SIZE, " --normals-from face");
     if (v->guard_px.given)
-        append(out, " --guard-px %d", v->guard_px.value);
+        append_to(out, COMMAND_SIZE, " --guard-px %d", v->guard_px.value);
 }
 
 static void append_number(char out[COMMAND_SIZE], const char *flag, const arg_number *n)
 {
     if (n->given)
-        append(out, " %s %.9g", flag, n->value);
+        append_to(out, COMMAND_SIZE, " %s %.9g", flag, n->value);
 }
 
 static void append_text(char out[COMMAND_SIZE], const char *flag, const char *text)
 {
     if (!text)
         return;
-    append(out, " %s ", flag);
+    append_to(out, COMMAND_SIZE, " %s ", flag);
     append_word(out, text);
 }
 
@@ -100,9 +87,11 @@ static void append_frame(char out[COMMAND_SIZE], const source *s, const wish *w)
     const char *name = source_frame_name(s, w->frame, path, sizeof path);
     append_word(out, name ? name : v->model);
     if (v->vfov_deg.given)
-        append(out, " --vfov %s", exact_number((float)v->vfov_deg.value, 1.0, number));
+        append_to(out, COMMAND_SIZE, " --vfov %s",
+                  exact_number((float)v->vfov_deg.value, 1.0, number));
     if (v->ortho.given)
-        append(out, " --ortho %s", exact_number((float)v->ortho.value, 1.0, number));
+        append_to(out, COMMAND_SIZE, " --ortho %s",
+                  exact_number((float)v->ortho.value, 1.0, number));
     if (v->layer_kind.given)
         append_text(out, "--layer-kind", v->layer_kind.value == 0 ? "surfaces" : "solid");
     append_passes(out, s->passes);
@@ -118,20 +107,21 @@ static void append_content(char out[COMMAND_SIZE], const source *s, const wish *
         const crv_options *o =
             other->content == HALF_METHOD ? &other->options : &own->options;
         const reference_options target = target_of(o);
-        append(out, "crevice reference ");
+        append_to(out, COMMAND_SIZE, "crevice reference ");
         append_mesh(out, s, w);
-        append(out, "%s --rays 1024", target_flags(&target, flags, sizeof flags));
+        append_to(out, COMMAND_SIZE, "%s --rays 1024",
+                  target_flags(&target, flags, sizeof flags));
     } else {
-        append(out, "crevice %s ", s->model ? "render" : "ao");
+        append_to(out, COMMAND_SIZE, "crevice %s ", s->model ? "render" : "ao");
         if (s->model)
             append_mesh(out, s, w);
         else
             append_frame(out, s, w);
-        append(out, "%s", option_flags(&own->options, flags));
+        append_to(out, COMMAND_SIZE, "%s", option_flags(&own->options, flags));
         append_device(out, &s->settings->common);
-        append(out, "%s", shade);
+        append_to(out, COMMAND_SIZE, "%s", shade);
     }
-    append(out, " -o %s", output);
+    append_to(out, COMMAND_SIZE, " -o %s", output);
 }
 
 static const char *reason(const source *s, const wish *w, int half)
@@ -157,15 +147,15 @@ const char *command_text(const source *s, const wish *w, int half, char out[COMM
     const char *why = reason(s, w, half);
     out[0] = '\0';
     if (why) {
-        append(out, "%s", why);
+        append_to(out, COMMAND_SIZE, "%s", why);
     } else if (own->look == LOOK_DIFFERENCE) {
         append_content(out, s, w, 0, "", "left.exr");
-        append(out, " && ");
+        append_to(out, COMMAND_SIZE, " && ");
         append_content(out, s, w, 1, "", "right.exr");
-        append(out,
-               " && crevice compare left.exr right.exr --heat-scale %.6g --heat-map "
-               "difference.png",
-               w->heat_scale);
+        append_to(out, COMMAND_SIZE,
+                  " && crevice compare left.exr right.exr --heat-scale %.6g --heat-map "
+                  "difference.png",
+                  w->heat_scale);
     } else if (own->look == LOOK_LIT && s->model) {
         append_content(out, s, w, half,
                        own->content == HALF_OPEN ? " --shade lit-no-ao" : " --shade lit",

@@ -1,25 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 #include "option_text.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "append.h"
 #include "common/exact.h"
 #include "common/help.h"
-
-#ifdef __GNUC__
-__attribute__((format(printf, 2, 3)))
-#endif
-static void
-append(char out[OPTION_TEXT_SIZE], const char *format, ...)
-{
-    const size_t used = strlen(out);
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(out + used, OPTION_TEXT_SIZE - used, format, arguments);
-    va_end(arguments);
-}
 
 const char *option_value_text(const crv_option *option, double value, char out[64])
 {
@@ -44,14 +31,14 @@ const char *option_value_text(const crv_option *option, double value, char out[6
 const char *option_lines(const crv_options *o, char out[OPTION_TEXT_SIZE])
 {
     out[0] = '\0';
-    append(out, "method=%s\nfilter=%s\n", o->method->name,
-           o->filter ? o->filter->name : "none");
+    append_to(out, OPTION_TEXT_SIZE, "method=%s\nfilter=%s\n", o->method->name,
+              o->filter ? o->filter->name : "none");
     for (int32_t i = 0; i < crv_option_count(); i++) {
         const crv_option *option = crv_option_at(i);
         char value[64];
         if (crv_option_applies(option, o->method, o->filter))
-            append(out, "%s=%s\n", option->key,
-                   option_value_text(option, crv_options_get(o, option), value));
+            append_to(out, OPTION_TEXT_SIZE, "%s=%s\n", option->key,
+                      option_value_text(option, crv_options_get(o, option), value));
     }
     return out;
 }
@@ -61,9 +48,10 @@ const char *option_flags(const crv_options *o, char out[OPTION_TEXT_SIZE])
     crv_options usual;
     crv_options_init(&usual, sizeof usual, o->method->name);
     out[0] = '\0';
-    append(out, " --method %s", o->method->name);
+    append_to(out, OPTION_TEXT_SIZE, " --method %s", o->method->name);
     if (o->filter != usual.filter)
-        append(out, " --filter %s", o->filter ? o->filter->name : "none");
+        append_to(out, OPTION_TEXT_SIZE, " --filter %s",
+                  o->filter ? o->filter->name : "none");
     for (int32_t i = 0; i < crv_option_count(); i++) {
         const crv_option *option = crv_option_at(i);
         const double value = crv_options_get(o, option);
@@ -74,7 +62,8 @@ const char *option_flags(const crv_options *o, char out[OPTION_TEXT_SIZE])
                 && !(value < standard || value > standard)))
             continue;
         help_option_flag(option, flag, sizeof flag);
-        append(out, " %s %s", flag, option_value_text(option, value, text));
+        append_to(out, OPTION_TEXT_SIZE, " %s %s", flag,
+                  option_value_text(option, value, text));
     }
     return out;
 }

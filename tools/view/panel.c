@@ -9,7 +9,9 @@
 
 enum { OPTIONS_MAX = 64, CONTENTS_MAX = 64 };
 
+/* In the order of half_look; frames have no materials to be lit. */
 static const char *const looks[] = {"accessibility", "lit", "difference", NULL};
+static const char *const frame_looks[] = {"accessibility", "difference", NULL};
 
 struct panel {
     app *app;
@@ -70,6 +72,27 @@ static void on_content(GObject *object, GParamSpec *spec, gpointer user)
     changed(p);
 }
 
+static const char *const *looks_of(const panel *p)
+{
+    return p->app->session.source.model ? looks : frame_looks;
+}
+
+static half_look look_at(const panel *p, guint index)
+{
+    for (guint i = 0; looks[i]; i++)
+        if (strcmp(looks[i], looks_of(p)[index]) == 0)
+            return (half_look)i;
+    return LOOK_ACCESSIBILITY;
+}
+
+static guint index_of_look(const panel *p, half_look look)
+{
+    guint index = 0;
+    while (looks_of(p)[index + 1] && look_at(p, index) != look)
+        index++;
+    return index;
+}
+
 static void on_look(GObject *object, GParamSpec *spec, gpointer user)
 {
     (void)object;
@@ -77,7 +100,7 @@ static void on_look(GObject *object, GParamSpec *spec, gpointer user)
     panel *p = user;
     if (p->syncing)
         return;
-    wish_of(p)->look = (half_look)selected(p->look);
+    wish_of(p)->look = look_at(p, selected(p->look));
     changed(p);
 }
 
@@ -149,7 +172,7 @@ static void make_choices(panel *p)
         presets[i + 1] = crv_preset_name((crv_preset)i);
     for (int i = 0; i < 30 && crv_filter_at(i); i++)
         filters[i + 1] = crv_filter_at(i)->name;
-    p->look = gtk_drop_down_new_from_strings(looks);
+    p->look = gtk_drop_down_new_from_strings(looks_of(p));
     p->preset = gtk_drop_down_new_from_strings(presets);
     p->filter = gtk_drop_down_new_from_strings(filters);
     g_signal_connect(p->look, "notify::selected", G_CALLBACK(on_look), p);
@@ -242,7 +265,7 @@ void panel_sync(panel *p)
             content = i;
     p->syncing = true;
     gtk_drop_down_set_selected(GTK_DROP_DOWN(p->content), (guint)content);
-    gtk_drop_down_set_selected(GTK_DROP_DOWN(p->look), (guint)h->look);
+    gtk_drop_down_set_selected(GTK_DROP_DOWN(p->look), index_of_look(p, h->look));
     gtk_drop_down_set_selected(GTK_DROP_DOWN(p->preset), 0);
     gtk_drop_down_set_selected(GTK_DROP_DOWN(p->filter),
                                index_of_filter(h->options.filter));
@@ -288,8 +311,8 @@ bool panel_choose(panel *p, const char *content)
 
 bool panel_set_look(panel *p, const char *look)
 {
-    for (guint i = 0; looks[i]; i++)
-        if (strcmp(looks[i], look) == 0) {
+    for (guint i = 0; looks_of(p)[i]; i++)
+        if (strcmp(looks_of(p)[i], look) == 0) {
             gtk_drop_down_set_selected(GTK_DROP_DOWN(p->look), i);
             return true;
         }

@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: MIT */
+/* append.h: text that grows in a buffer. */
+#ifndef VIEW_APPEND_H
+#define VIEW_APPEND_H
+
+#include <stddef.h>
+
+/* printf to the end of the text in out, whose buffer has `size` bytes; what does not fit
+ * is cut off. */
+void append_to(char *out, size_t size, const char *format, ...)
+#ifdef __GNUC__
+    __attribute__((format(printf, 3, 4)))
+#endif
+    ;
+
+#endif
