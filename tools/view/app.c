@@ -77,6 +77,18 @@ void app_set_dark(app *a, bool dark)
     gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(a->dark), dark);
 }
 
+void app_title(app *a)
+{
+    char path[4096];
+    const char *name =
+        source_frame_name(&a->session.source, a->session.wish.frame, path, sizeof path);
+    char *base = g_path_get_basename(name ? name : a->settings->view.model);
+    char *title = g_strdup_printf("%s - Crevice", base);
+    gtk_window_set_title(GTK_WINDOW(a->window), title);
+    g_free(title);
+    g_free(base);
+}
+
 void app_set_frame(app *a, int index)
 {
     wish *w = &a->session.wish;
@@ -87,6 +99,7 @@ void app_set_frame(app *a, int index)
     w->frame = index;
     if (a->scrubber)
         gtk_range_set_value(GTK_RANGE(a->scrubber), index);
+    app_title(a);
     app_ask(a);
 }
 

@@ -44,6 +44,8 @@ void app_copy_command(app *a);
 void app_copy_options(app *a);
 void app_set_dark(app *a, bool dark);
 void app_set_frame(app *a, int index);
+/* The window is called as the input, or as the frame of it. */
+void app_title(app *a);
 /* Writes what a half shows, without the line and the names: as `render` would. */
 bool app_save(app *a, int half, const char *path);
 

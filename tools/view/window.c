@@ -293,10 +293,8 @@ void window_make(app *a)
     GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
     GtkEventController *keys = gtk_event_controller_key_new();
     const arg_size size = a->settings->view.size;
-    char *name = g_path_get_basename(a->settings->view.model);
-    char *title = g_strdup_printf("%s - Crevice", name);
     a->window = gtk_window_new();
-    gtk_window_set_title(GTK_WINDOW(a->window), title);
+    app_title(a);
     gtk_window_set_titlebar(GTK_WINDOW(a->window), make_bar(a));
     gtk_box_append(GTK_BOX(box), make_left(a));
     gtk_box_append(GTK_BOX(box), gtk_separator_new(GTK_ORIENTATION_VERTICAL));
@@ -309,6 +307,4 @@ void window_make(app *a)
     gtk_widget_add_controller(a->window, keys);
     gtk_window_present(GTK_WINDOW(a->window));
     gtk_widget_grab_focus(a->canvas);
-    g_free(name);
-    g_free(title);
 }
