@@ -11,18 +11,19 @@ from typing import Any
 from . import performance
 from .measure import Study
 from .options import PRESETS
+from .sections import filters
 from .tables import markdown, number, rewrite
 from .tool import HOME, ToolError
 
 DOCS = HOME / "docs"
-PARTS = ("courtyard", "meshes", "performance", "gpu")
+PARTS = ("courtyard", "filters", "meshes", "performance", "gpu")
 SHOWN = ("medium", "high")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--docs", action="append", choices=PARTS, metavar="PART",
                         help=f"measure a part of the tables in docs/ and write them: one of "
-                             f"{', '.join(PARTS)}; may be given again. meshes and performance "
+                             f"{', '.join(PARTS)}; may be given again. All but courtyard "
                              "take the views of --views, else those of the folder "
                              "CREVICE_SHARED. Let the machine do nothing else meanwhile")
     parser.add_argument("--pages", type=Path, default=DOCS, metavar="DIR",
@@ -101,6 +102,14 @@ def parts_table(report: dict[str, Any]) -> str:
                      and r["method"] in ("bitmask", "gtao", "hsao", "hbao")])
 
 
+def filters_parts(report: dict[str, Any]) -> dict[str, dict[str, str]]:
+    return {"methods.md": {"filters-made-by": made_by(report),
+                           "filters-compared": markdown(filters.HEADS,
+                                                        report["filters"]["compared"]),
+                           "filters-flicker": markdown(["variant", "flicker"],
+                                                       report["filters"]["variants"])}}
+
+
 def courtyard_parts(report: dict[str, Any]) -> dict[str, dict[str, str]]:
     return {"methods.md": {"courtyard-made-by": made_by(report),
                            "courtyard-methods": methods_table(report),
@@ -175,6 +184,9 @@ def run(arguments: argparse.Namespace, make_study: Any) -> None:
         folder = arguments.output / part
         if part == "courtyard":
             write(arguments.pages, courtyard_parts(report_of(folder, common + small)))
+        elif part == "filters":
+            write(arguments.pages, filters_parts(report_of(
+                folder, [*given, *filters.THIN, "--only", "filters", *common, *small])))
         elif part == "meshes":
             size = small or ["--size", "1280x720"]
             write(arguments.pages, meshes_parts(report_of(

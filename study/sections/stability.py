@@ -138,21 +138,25 @@ class Motion:
 def steps(s: Study) -> list[Step]:
     motion = Motion()
     rows = [Row(s.options(method)) for method in s.registry.methods]
-    return [Step("stability: frames", 3, lambda: make_motion(s, motion)),
+
+    def move() -> None:
+        made = motion_of(s, s.main, 3 if s.is_quick else 4)
+        motion.step, motion.looks, motion.taps = made.step, made.looks, made.taps
+
+    return [Step("stability: frames", 3, move),
             *(Step(f"stability: {r.options.method}", 4, lambda r=r: measure(s, motion, r))
               for r in rows), Step("stability: page", 1, lambda: write(s, motion, rows))]
 
 
-def make_motion(s: Study, motion: Motion) -> None:
-    """Half the size of the main view; the step is one by which points move as wanted."""
-    base = s.main.resized(0.5)
+def motion_of(s: Study, view: View, frames: int) -> Motion:
+    """Half the size of the view; the step is one by which points move as wanted."""
+    base = view.resized(0.5)
     first = look_at(s, base)
     trial = 0.02 * base.radius
     found = follow(first, look_at(s, base.moved(trial))).motion_px
-    motion.step = trial * MOTION_PX / found if found > 0 else trial
-    frames = 3 if s.is_quick else 4
-    motion.looks = [first] + [look_at(s, base.moved(k * motion.step)) for k in range(1, frames)]
-    motion.taps = [follow(a, b) for a, b in zip(motion.looks, motion.looks[1:])]
+    step = trial * MOTION_PX / found if found > 0 else trial
+    looks = [first] + [look_at(s, base.moved(k * step)) for k in range(1, frames)]
+    return Motion(step, looks, [follow(a, b) for a, b in zip(looks, looks[1:])])
 
 
 def trace(s: Study, view: View, target: Target, seed: int) -> np.ndarray:
@@ -175,6 +179,13 @@ def truth_of(s: Study, motion: Motion, target: Target) -> Truth:
     return motion.truths[target]
 
 
+def change_of_error(motion: Motion, truth: Truth, pictures: list[np.ndarray]) -> float:
+    """RMS at steady points, from the first frame to the second."""
+    a, b = (motion.taps[0].change(pictures[0] - truth.planes[0][k],
+                                  pictures[1] - truth.planes[1][k]) for k in (0, 1))
+    return max(0.0, float(np.mean((a * b)[truth.steady])))**0.5
+
+
 def measure(s: Study, motion: Motion, row: Row) -> None:
     truth = row.truth = truth_of(s, motion, row.options.target)
     first = motion.taps[0]
@@ -185,9 +196,7 @@ def measure(s: Study, motion: Motion, row: Row) -> None:
         row.by_frame = [float(np.sqrt(np.mean(c**2))) for c in changes]
         steady = changes[0][truth.steady]
         row.excess.append(max(0.0, float(np.mean(steady**2)) - truth.steady2)**0.5)
-        a, b = (first.change(pictures[0] - truth.planes[0][k], pictures[1] - truth.planes[1][k])
-                for k in (0, 1))
-        row.wobble.append(max(0.0, float(np.mean((a * b)[truth.steady])))**0.5)
+        row.wobble.append(change_of_error(motion, truth, pictures))
         redrawn = s.picture(motion.looks[1].view, options.set(seed=1))
         still = (redrawn - pictures[1])[first.found][truth.steady]
         row.still.append(float(np.sqrt(np.mean(still.astype(np.float64)**2))))

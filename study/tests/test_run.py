@@ -103,6 +103,17 @@ def test_parts_of_the_error(report):
     assert {r["method"] for r in report["missing"]} == set(missing.SUBJECTS)
 
 
+def test_filters(report):
+    """The default filter's error is what `compare` says of the same picture; in a corner all
+    filters err most at the edge."""
+    medium = {r["method"]: r for r in report["methods"] if r["preset"] == "medium"}
+    for row in report["filters"]["rows"]:
+        assert row["rmse_at_edges"] > row["rmse"] > 0, row
+        assert row["flicker"] > 0, row
+        if row["filter"] == "bilateral13":
+            assert row["rmse"] == pytest.approx(medium[row["method"]]["rmse"], abs=2e-3)
+
+
 def test_walls(report):
     """A plane: ssao by definition 0.5, the others 1."""
     for method, means in report["vao"]["walls"].items():
