@@ -153,20 +153,17 @@ float slice_outward(ivec2 texel, ivec2 inwards, float own)
 }
 
 /* The first layer's depth beyond the borders: planes go on, up to a third and three times
- * the border's own. */
-float slice_beyond(ivec2 outside)
+ * the border's own. A loop, since few samples lie beyond two borders. */
+float slice_beyond(ivec2 texel, ivec2 by)
 {
-    const ivec2 texel =
-        clamp(outside, ivec2(0), ivec2(params.width - 1, params.height - 1));
-    const ivec2 by = outside - texel;
-    if (params.border == SLICE_BORDER_BACKGROUND || !is_surface(depth_at(texel, 0)))
-        return INFINITY;
     const float own = slice_linear(texel);
     float w = own;
-    if (by.x != 0)
-        w += slice_outward(texel, ivec2(-sign(by.x), 0), own) * abs(float(by.x));
-    if (by.y != 0)
-        w += slice_outward(texel, ivec2(0, -sign(by.y)), own) * abs(float(by.y));
+    for (int axis = by.x != 0 ? 0 : 1; axis < 2; axis++) {
+        const ivec2 along = axis == 0 ? ivec2(by.x, 0) : ivec2(0, by.y);
+        if (along == ivec2(0))
+            break;
+        w += slice_outward(texel, -sign(along), own) * float(abs(along.x + along.y));
+    }
     w = clamp(w, own / 3, 3 * own);
     return is_orthographic() ? w : 1 / w;
 }
@@ -174,9 +171,14 @@ float slice_beyond(ivec2 outside)
 /* The depth of a layer at a texel; INFINITY: background. */
 float slice_depth(int layer, SliceTexel t)
 {
-    if (in_buffers(t.texel))
-        return depth_at(t.texel, layer);
-    return layer == 0 ? slice_beyond(t.texel) : INFINITY;
+    const ivec2 last = ivec2(params.width - 1, params.height - 1);
+    const ivec2 texel = clamp(t.texel, ivec2(0), last);
+    const float d = depth_at(texel, layer);
+    if (texel == t.texel)
+        return d;
+    if (layer > 0 || params.border == SLICE_BORDER_BACKGROUND || !is_surface(d))
+        return INFINITY;
+    return slice_beyond(texel, t.texel - texel);
 }
 
 /* The surface at a texel and depth, on the slice: x from P along T, z towards the eye. */
