@@ -142,7 +142,7 @@ static exr_result_t declare_new(const io__exr_copy *copy, const io__exr_sink *si
 }
 
 /* Attributes of types that are not OpenEXR's own, which its function for copying drops
- * (seen in 3.1.5). */
+ * (seen in 3.1.5). Empty ones are left out: the library leaks a byte for each. */
 static exr_result_t copy_foreign(const io__exr_copy *copy, const io__exr_sink *sink,
                                  int part, int source)
 {
@@ -152,7 +152,7 @@ static exr_result_t copy_foreign(const io__exr_copy *copy, const io__exr_sink *s
         const exr_attribute_t *attribute = NULL;
         code = exr_get_attribute_by_index(copy->in.context, source,
                                           EXR_ATTR_LIST_FILE_ORDER, i, &attribute);
-        if (!code && attribute->type == EXR_ATTR_OPAQUE)
+        if (!code && attribute->type == EXR_ATTR_OPAQUE && attribute->opaque->size > 0)
             code = exr_attr_set_user(sink->context, part, attribute->name,
                                      attribute->type_name, attribute->opaque->size,
                                      attribute->opaque->packed_data);
