@@ -17,7 +17,13 @@ execute_process(COMMAND ${CMAKE_C_COMPILER} -print-file-name=libgomp-1.dll
 get_filename_component(runtime "${runtime}" DIRECTORY)
 file(CONFIGURE OUTPUT "${CMAKE_BINARY_DIR}/run-under-wine" CONTENT [[#!/bin/sh
 export WINEDEBUG=-all
+export WINEPREFIX="@CMAKE_BINARY_DIR@/wine"
 export WINEPATH="@runtime@;/usr/x86_64-w64-mingw32/lib;@CMAKE_BINARY_DIR@/src"
+# Of tests that start at once, one sets Wine up and the others wait.
+(
+    flock 9
+    [ -s "@CMAKE_BINARY_DIR@/wine.lock" ] || { wine wineboot --init 9>&- >/dev/null 2>&1; echo ready >&9; }
+) 9>>"@CMAKE_BINARY_DIR@/wine.lock"
 exec wine "$@"
 ]] @ONLY)
 set(CMAKE_CROSSCOMPILING_EMULATOR sh "${CMAKE_BINARY_DIR}/run-under-wine")
