@@ -9,6 +9,7 @@ crevice_test(test_reference_checkpoint SOURCES test_reference_checkpoint.c
 if(TARGET crevice_io)
     crevice_test(test_reference_blender SOURCES test_reference_blender.c
         LIBS test_scene_support crevice_io)
+    set_tests_properties(test_reference_blender PROPERTIES LABELS once)
 endif()
 if(COMMAND tool_test)
     tool_test(tool_reference)

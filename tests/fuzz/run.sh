@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # run.sh FUZZER FOLDER SECONDS CORPUS...: runs a libFuzzer program and says what it reached.
+# Every run begins alike; FUZZ_SEED=0 draws another beginning, for long runs.
 # The number of edges is that of all code in the program, reached by this target or not.
 # What it finds is kept in FOLDER/found; so is the corpus, for the next run, in FOLDER/corpus.
 set -euo pipefail
+here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
 fuzzer=$(readlink -f "$1")
 folder=$2
 seconds=$3
@@ -21,8 +23,9 @@ cd "$folder"
 # under a sanitizer. Importers leave memory behind in that child, which ends then.
 export ASAN_OPTIONS=allocator_may_return_null=1:max_allocation_size_mb=1024:detect_stack_use_after_return=1
 export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
+export LSAN_OPTIONS=suppressions=$here/leaks.txt:print_suppressions=0
 status=0
-"$fuzzer" -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=10 -print_final_stats=1 \
+"$fuzzer" -seed="${FUZZ_SEED:-1}" -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=10 -print_final_stats=1 \
     -max_len=16384 -artifact_prefix=found/ corpus "${corpora[@]}" \
     >log.txt 2>&1 || status=$?
 name=$(basename "$fuzzer")
