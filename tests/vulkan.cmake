@@ -13,8 +13,8 @@ add_test(NAME test_vulkan_agreement COMMAND test_vulkan_agreement --seed 1
     --cases ${crevice_vulkan_cases})
 
 # The label "once": what depends on shaders, driver or large scenes more than on who compiled
-# the C code, and is run with one compiler. The label "long": most of it is an emulated GPU that compiles
-# shaders for a minute; ./check leaves it to ./check --all.
+# the C code, and is run with one compiler. The label "long": most of it is an emulated GPU
+# that compiles shaders for a minute; ./check leaves it to ./check --all.
 
 # Other ways to the same picture: half floats, depth deinterleaved.
 add_test(NAME vulkan_half_deinterleaved COMMAND test_vulkan_agreement --seed 1 --half 1 --layout 1
