@@ -211,7 +211,7 @@ class Study:
         frames = [str(self.frame_path(view)) for view in views]
         if not any(a.startswith("radius=") for a in arguments):
             arguments = [*arguments, "--set", f"radius={views[0].radius:.9g}"]
-        seconds = ["--seconds", f"{(0.1 if self.is_quick else 0.4) + 1e-4 * number:.4f}"]
+        seconds = ["--seconds", f"{(0.04 if self.is_quick else 0.4) + 1e-4 * number:.4f}"]
         rows: list[dict[str, Any]] = self.tool.ask(
             "bench", [*frames, *arguments, *self.isa, *seconds, "--json"])["rows"]
         return rows

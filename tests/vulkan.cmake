@@ -82,5 +82,5 @@ endif()
 
 if(TARGET crevice_tool)
     tool_test(tool_vulkan)
-    set_tests_properties(tool_vulkan PROPERTIES LABELS "vulkan;once" TIMEOUT 600)
+    set_tests_properties(tool_vulkan PROPERTIES LABELS "vulkan;once;long" TIMEOUT 600)
 endif()
