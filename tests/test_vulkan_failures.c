@@ -619,14 +619,6 @@ static void a_device_of_ones_own_may_fail(void **state)
     assert_int_equal(crv_vulkan_device_info(0, NULL, NULL), CRV_ERROR_INVALID_ARGUMENT);
 }
 
-static engine the_engine;
-
-static int open_all(void **state)
-{
-    *state = &the_engine;
-    return 0;
-}
-
 /* test_vulkan_failures --lives-from N */
 static int live_here(const char *from)
 {
@@ -634,7 +626,7 @@ static int live_here(const char *from)
     first_due = (int)strtol(from, NULL, 10);
     if (engine_open(&the_engine, 0) != 0)
         return 1;
-    const int failed = cmocka_run_group_tests(tests, open_all, NULL);
+    const int failed = cmocka_run_group_tests(tests, engine_tests_setup, NULL);
     engine_close(&the_engine);
     return failed;
 }
@@ -655,11 +647,8 @@ int main(int argc, char **argv)
     if (argc == 3 && strcmp(argv[1], "--lives-from") == 0)
         return live_here(argv[2]);
     this_program = argv[0];
-    if (engine_open(&the_engine, 1) != 0) {
-        printf("SKIPPED: no Vulkan 1.3 device, or no validation layer\n");
-        return getenv("CI") ? 1 : 77;
-    }
-    const int failed = cmocka_run_group_tests(tests, open_all, NULL);
-    engine_close(&the_engine); /* the layer tells of every object that is left */
-    return failed || the_engine.h.complaints;
+    const int refused = engine_tests_begin();
+    if (refused)
+        return refused;
+    return engine_tests_end(cmocka_run_group_tests(tests, engine_tests_setup, NULL));
 }

@@ -412,20 +412,6 @@ static void layouts_are_taken_or_refused_by_name(void **state)
     close_bench(b);
 }
 
-static void the_validation_layer_is_silent(void **state)
-{
-    engine *g = *state;
-    assert_int_equal(g->h.complaints, 0);
-}
-
-static engine the_engine;
-
-static int open_all(void **state)
-{
-    *state = &the_engine;
-    return 0;
-}
-
 /* test_vulkan_formats --usual: one recording, for the layer that instruments shaders. */
 static void the_usual_formats(void **state)
 {
@@ -450,13 +436,11 @@ int main(int argc, char **argv)
         cmocka_unit_test(layouts_are_taken_or_refused_by_name),
         cmocka_unit_test(the_validation_layer_is_silent),
     };
-    if (engine_open(&the_engine, 1) != 0) {
-        printf("SKIPPED: no Vulkan 1.3 device, or no validation layer\n");
-        return getenv("CI") ? 1 : 77;
-    }
+    const int refused = engine_tests_begin();
+    if (refused)
+        return refused;
     const int failed = argc > 1 && strcmp(argv[1], "--usual") == 0
-                           ? cmocka_run_group_tests(usual, open_all, NULL)
-                           : cmocka_run_group_tests(tests, open_all, NULL);
-    engine_close(&the_engine);
-    return failed || the_engine.h.complaints;
+                           ? cmocka_run_group_tests(usual, engine_tests_setup, NULL)
+                           : cmocka_run_group_tests(tests, engine_tests_setup, NULL);
+    return engine_tests_end(failed);
 }

@@ -9,8 +9,6 @@
 
 #include "vulkan_stage.h"
 
-static engine the_engine;
-
 static void assert_same(const float *a, const float *b, size_t count)
 {
     assert_memory_equal(a, b, count * sizeof *a);
@@ -452,18 +450,6 @@ static void the_host_gives_a_cache_and_gets_names(void **state)
     vkDestroyPipelineCache(g->h.device, device.pipeline_cache, NULL);
 }
 
-static void the_validation_layer_is_silent(void **state)
-{
-    engine *g = *state;
-    assert_int_equal(g->h.complaints, 0);
-}
-
-static int open_all(void **state)
-{
-    *state = &the_engine;
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -479,11 +465,8 @@ int main(void)
         cmocka_unit_test(the_host_gives_a_cache_and_gets_names),
         cmocka_unit_test(the_validation_layer_is_silent),
     };
-    if (engine_open(&the_engine, 1) != 0) {
-        printf("SKIPPED: no Vulkan 1.3 device, or no validation layer\n");
-        return getenv("CI") ? 1 : 77;
-    }
-    const int failed = cmocka_run_group_tests(tests, open_all, NULL);
-    engine_close(&the_engine);
-    return failed || the_engine.h.complaints;
+    const int refused = engine_tests_begin();
+    if (refused)
+        return refused;
+    return engine_tests_end(cmocka_run_group_tests(tests, engine_tests_setup, NULL));
 }

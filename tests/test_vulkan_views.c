@@ -266,20 +266,6 @@ static void eight_frames_of_two_views_are_in_flight(void **state)
     }
 }
 
-static void the_validation_layer_is_silent(void **state)
-{
-    engine *g = *state;
-    assert_int_equal(g->h.complaints, 0);
-}
-
-static engine the_engine;
-
-static int open_all(void **state)
-{
-    *state = &the_engine;
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -289,11 +275,8 @@ int main(void)
         cmocka_unit_test(eight_frames_of_two_views_are_in_flight),
         cmocka_unit_test(the_validation_layer_is_silent),
     };
-    if (engine_open(&the_engine, 1) != 0) {
-        printf("SKIPPED: no Vulkan 1.3 device, or no validation layer\n");
-        return getenv("CI") ? 1 : 77;
-    }
-    const int failed = cmocka_run_group_tests(tests, open_all, NULL);
-    engine_close(&the_engine);
-    return failed || the_engine.h.complaints;
+    const int refused = engine_tests_begin();
+    if (refused)
+        return refused;
+    return engine_tests_end(cmocka_run_group_tests(tests, engine_tests_setup, NULL));
 }

@@ -1,8 +1,44 @@
 /* SPDX-License-Identifier: MIT */
 #include "vulkan_engine.h"
 
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <setjmp.h>
+
+#include <cmocka.h>
+
+engine the_engine;
+
+int engine_tests_begin(void)
+{
+    if (engine_open(&the_engine, 1) == 0)
+        return 0;
+    printf("SKIPPED: no Vulkan 1.3 device, or no validation layer\n");
+    return getenv("CI") ? 1 : 77;
+}
+
+int engine_tests_setup(void **state)
+{
+    *state = &the_engine;
+    return 0;
+}
+
+int engine_tests_end(int failed)
+{
+    engine_close(&the_engine); /* the layer tells of every object that is left */
+    return failed || the_engine.h.complaints;
+}
+
+void the_validation_layer_is_silent(void **state)
+{
+    const engine *g = *state;
+    assert_int_equal(g->h.complaints, 0);
+}
 
 int engine_open(engine *e, int validate)
 {

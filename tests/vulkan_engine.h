@@ -48,4 +48,16 @@ void engine_array_free(engine *e, engine_array *array);
 void *engine_download_layer(engine *e, const host_image *image, int layer, int width,
                             int height, size_t size);
 
+/* The engine of a test program. engine_tests_begin() opens it under the validation
+ * layer and returns 0, or the exit code of a program that is skipped. The setup hands it
+ * to the tests. engine_tests_end() closes it and returns the exit code: not 0 if a test
+ * failed or the layer complained. */
+extern engine the_engine;
+int engine_tests_begin(void);
+int engine_tests_setup(void **state);
+int engine_tests_end(int failed);
+
+/* A test, the last of each program. */
+void the_validation_layer_is_silent(void **state);
+
 #endif
