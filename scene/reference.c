@@ -56,8 +56,9 @@ static float largest_length(const scene *s)
 static bool allocate(reference *r)
 {
     size_t count = (size_t)r->width * (size_t)r->height;
-    r->accessibility = calloc(count, 2 * sizeof(float));
+    r->accessibility = calloc(count, REFERENCE_FLOATS * sizeof(float));
     r->error = r->accessibility ? r->accessibility + count : NULL;
+    r->bent_normal = r->error ? r->error + count : NULL;
     if (r->options.all_falloffs)
         r->falloffs = calloc(count, REFERENCE_FALLOFFS * 2 * sizeof(float));
     return r->accessibility && (r->falloffs || !r->options.all_falloffs);
@@ -120,6 +121,12 @@ static vec3 to_world(const scene_axes *axes, vec3 v)
     return v3_along(v3_along(v3_scale(axes->right, v.x), axes->up, v.y), axes->back, v.z);
 }
 
+static void turn_to_view(const scene_axes *axes, float v[3])
+{
+    const vec3 w = v3_from(v);
+    v3_store(v3(v3_dot(w, axes->right), v3_dot(w, axes->up), v3_dot(w, axes->back)), v);
+}
+
 static double offset_at(const reference *r, double depth)
 {
     return fmax((double)r->offset, (double)OFFSET_SHARE * depth);
@@ -173,9 +180,12 @@ static void estimate_pixel(const reference *r, int32_t x, int32_t y,
                      : find_point(r, &ray, &point);
     for (int32_t k = 0; k < count; k++)
         out[k] = (reference_value){.accessibility = 1.0f};
-    if (found)
-        reference_trace(r, &point, sampling_mix(index ^ sampling_mix(r->options.seed)),
-                        falloffs, count, out);
+    if (!found)
+        return;
+    reference_trace(r, &point, sampling_mix(index ^ sampling_mix(r->options.seed)),
+                    falloffs, count, out);
+    for (int32_t k = 0; k < count; k++)
+        turn_to_view(&r->axes, out[k].bent_normal);
 }
 
 reference_value reference_pixel(const reference *r, int32_t x, int32_t y)
@@ -219,6 +229,7 @@ static void compute_pixel(reference *r, int64_t i)
     }
     r->accessibility[i] = value.accessibility;
     r->error[i] = value.error;
+    memcpy(r->bent_normal + 3 * i, value.bent_normal, sizeof value.bent_normal);
 }
 
 void reference_advance(reference *r, int64_t pixels, int32_t threads)
@@ -245,6 +256,11 @@ const float *reference_accessibility(const reference *r)
 const float *reference_error(const reference *r)
 {
     return r->error;
+}
+
+const float *reference_bent_normal(const reference *r)
+{
+    return r->bent_normal;
 }
 
 const float *reference_falloff_accessibility(const reference *r, crv_falloff falloff)

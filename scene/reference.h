@@ -3,11 +3,11 @@
  * reference.h: ambient occlusion by ray tracing, the truth that estimators are measured
  * against.
  *
- * A = 1 - E[V W] over directions about the normal that are drawn with the weighting's own
- * density, W the falloff at the nearest hit. Both sides of triangles block. The normal is
- * that of the G-buffer: if an interpolated one deviates from its facet, rays below the
- * facet start under the surface and are blocked by it, so A is that of the triangles as
- * they are.
+ * A = 1 - E[V W] over directions w about the normal that are drawn with the weighting's
+ * own density, W the falloff at the nearest hit. The bent normal is the direction of
+ * E[(1 - V W) w]. Both sides of triangles block. The normal is that of the G-buffer: if
+ * an interpolated one deviates from its facet, rays below the facet start under the
+ * surface and are blocked by it, so A is that of the triangles as they are.
  */
 #ifndef CREVICE_SCENE_REFERENCE_H
 #define CREVICE_SCENE_REFERENCE_H
@@ -53,6 +53,8 @@ typedef struct reference_options {
 typedef struct reference_value {
     float accessibility; /* background: 1 */
     float error;         /* estimated standard error, 1/rays at least; background: 0 */
+    /* Unit, view space. If nothing is open: the normal; background: 0. */
+    float bent_normal[3];
     int32_t rays;
 } reference_value;
 
@@ -84,6 +86,9 @@ void reference_advance(reference *r, int64_t pixels, int32_t threads);
 /* One float for each pixel inside the guard band, zero if it is not done. */
 const float *reference_accessibility(const reference *r);
 const float *reference_error(const reference *r);
+
+/* Three floats for each pixel inside the guard band, as in reference_value. */
+const float *reference_bent_normal(const reference *r);
 
 /* The same of another falloff; only where all_falloffs was asked for. */
 const float *reference_falloff_accessibility(const reference *r, crv_falloff falloff);

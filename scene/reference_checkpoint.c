@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The state of a reference on disk: a header, accessibility, error, and a hash over all
- * of it. In the machine's own byte order; one of another machine is refused as damaged.
+ * The state of a reference on disk: a header, accessibility, error, bent normals, and a
+ * hash over all of it. In the machine's own byte order; one of another machine is refused
+ * as damaged.
  */
 #define _POSIX_C_SOURCE 200809L
 
@@ -17,7 +18,7 @@
 
 /* Changes with everything that changes results, so that two versions never share one
  * picture. */
-#define FORMAT "crevice reference 1\n"
+#define FORMAT "crevice reference 2\n"
 
 typedef struct checkpoint_header {
     char format[24];
@@ -80,7 +81,7 @@ static uint64_t fingerprint_of(reference *r)
 
 static size_t value_bytes(const reference *r)
 {
-    return 2 * sizeof(float) * (size_t)r->width * (size_t)r->height;
+    return REFERENCE_FLOATS * sizeof(float) * (size_t)r->width * (size_t)r->height;
 }
 
 static uint64_t checksum(const checkpoint_header *header, const void *values, size_t size)

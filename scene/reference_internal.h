@@ -8,6 +8,8 @@
 #include "raycast.h"
 #include "reference.h"
 
+#define REFERENCE_FLOATS 5
+
 struct reference {
     const scene *scene;     /* where the visible points are */
     const scene *occluders; /* `scene`, or the sheets of the G-buffer's layers;
@@ -21,7 +23,8 @@ struct reference {
     uint64_t fingerprint;  /* of all that the result depends on; 0 until a checkpoint
                               wants it, since large meshes take a while */
     int64_t done;
-    float *accessibility, *error; /* one block: accessibility first */
+    /* One block of REFERENCE_FLOATS for each pixel, in this order. */
+    float *accessibility, *error, *bent_normal;
     float *falloffs; /* of all falloffs, in order: accessibility, error; or NULL */
 };
 
@@ -30,7 +33,8 @@ typedef struct reference_point {
     vec3 origin, normal;
 } reference_point;
 
-/* Estimates one point with the random numbers of this stream, for these falloffs. */
+/* Estimates one point with the random numbers of this stream, for these falloffs. Bent
+ * normals are in world space. */
 void reference_trace(const reference *r, const reference_point *point, uint64_t stream,
                      const crv_falloff *falloffs, int32_t count, reference_value *out);
 

@@ -86,21 +86,35 @@ typedef struct falloff_list {
     int32_t count;
 } falloff_list;
 
-/* What one ray says of the accessibility, in [0, 1], under each of the falloffs. */
-static void trace_ray(const reference *r, const reference_point *point,
-                      const direction_frame *frame, sample_point sample,
-                      falloff_list falloffs, double *out)
+/* One ray of the hemisphere: its direction, and the sine of its elevation. */
+typedef struct hemisphere_ray {
+    vec3 direction;
+    double sine;
+} hemisphere_ray;
+
+static hemisphere_ray ray_of_sample(const reference_options *o,
+                                    const direction_frame *frame, sample_point sample)
 {
-    const reference_options *o = &r->options;
-    double sine = elevation_sine(o, sample.u), radius = (double)o->radius;
-    double cosine = sqrt(fmax(0.0, 1.0 - sine * sine)), angle = 2.0 * SCENE_PI * sample.v;
+    const double sine = elevation_sine(o, sample.u);
+    const double cosine = sqrt(fmax(0.0, 1.0 - sine * sine));
+    const double angle = 2.0 * SCENE_PI * sample.v;
     vec3 direction = v3_scale(frame->z, sine);
-    double share;
     direction = v3_along(direction, frame->x, cosine * cos(angle));
     direction = v3_along(direction, frame->y, cosine * sin(angle));
+    return (hemisphere_ray){direction, sine};
+}
+
+/* What one ray says of the accessibility, in [0, 1], under each of the falloffs. */
+static void trace_ray(const reference *r, const reference_point *point,
+                      const hemisphere_ray *along, falloff_list falloffs, double *out)
+{
+    const reference_options *o = &r->options;
+    const double radius = (double)o->radius;
+    const vec3 direction = along->direction;
+    double share;
     if (o->definition == REFERENCE_TANGENT_SPHERE) {
         /* Along the chord volume grows with the cube of the distance. */
-        share = free_share(r, point->origin, direction, radius * sine);
+        share = free_share(r, point->origin, direction, radius * along->sine);
         for (int32_t k = 0; k < falloffs.count; k++)
             out[k] = share * share * share;
         return;
@@ -147,13 +161,28 @@ static reference_value summary(const double *sum, int32_t copies, int32_t rays)
                              .rays = rays};
 }
 
+/* Open directions lie about the normal, so that their sum is zero only if there is
+ * none. */
+static void set_bent_normal(reference_value *out, vec3 sum, vec3 normal)
+{
+    v3_store(v3_normalise(v3_dot(sum, sum) > 0.0 ? sum : normal), out->bent_normal);
+}
+
+/* What was traced so far: of each falloff the openness, by copies, and the sum of
+ * openness times direction. */
+typedef struct trace_sums {
+    double open[REFERENCE_FALLOFFS][MAX_COPIES];
+    vec3 bent[REFERENCE_FALLOFFS];
+} trace_sums;
+
 /* Summaries of all falloffs; the largest of their errors. */
-static float summarise(double sums[REFERENCE_FALLOFFS][MAX_COPIES], int32_t count,
-                       int32_t copies, int32_t rays, reference_value *out)
+static float summarise(const trace_sums *sums, const reference_point *point,
+                       int32_t count, int32_t copies, int32_t rays, reference_value *out)
 {
     float error = 0.0f;
     for (int32_t k = 0; k < count; k++) {
-        out[k] = summary(sums[k], copies, rays);
+        out[k] = summary(sums->open[k], copies, rays);
+        set_bent_normal(&out[k], sums->bent[k], point->normal);
         error = fmaxf(error, out[k].error);
     }
     return error;
@@ -166,9 +195,12 @@ void reference_trace(const reference *r, const reference_point *point, uint64_t 
     direction_frame frame = frame_around(point->normal);
     int32_t copies = copy_count(o->rays), traced = 0;
     int32_t until = o->max_error > 0.0f && o->rays > FIRST_STOP ? FIRST_STOP : o->rays;
-    double sums[REFERENCE_FALLOFFS][MAX_COPIES] = {{0}}, open[REFERENCE_FALLOFFS];
-    for (int32_t k = 0; k < count; k++)
+    trace_sums sums = {0};
+    double open[REFERENCE_FALLOFFS];
+    for (int32_t k = 0; k < count; k++) {
         out[k] = (reference_value){.accessibility = 1.0f};
+        set_bent_normal(&out[k], point->normal, point->normal);
+    }
     if (!r->occluders)
         return;
     for (;;) {
@@ -176,14 +208,17 @@ void reference_trace(const reference *r, const reference_point *point, uint64_t 
             uint64_t seed = sampling_mix(stream + (uint64_t)c);
             int32_t last = rays_of_copy(until, copies, c);
             for (int32_t i = rays_of_copy(traced, copies, c); i < last; i++) {
-                trace_ray(r, point, &frame, sampling_owen_sobol((uint32_t)i, seed),
-                          (falloff_list){falloffs, count}, open);
-                for (int32_t k = 0; k < count; k++)
-                    sums[k][c] += open[k];
+                const hemisphere_ray ray =
+                    ray_of_sample(o, &frame, sampling_owen_sobol((uint32_t)i, seed));
+                trace_ray(r, point, &ray, (falloff_list){falloffs, count}, open);
+                for (int32_t k = 0; k < count; k++) {
+                    sums.open[k][c] += open[k];
+                    sums.bent[k] = v3_along(sums.bent[k], ray.direction, open[k]);
+                }
             }
         }
         traced = until;
-        if (summarise(sums, count, copies, traced, out) <= o->max_error
+        if (summarise(&sums, point, count, copies, traced, out) <= o->max_error
             || traced >= o->rays)
             return;
         until = traced > o->rays / 2 ? o->rays : 2 * traced;

@@ -12,6 +12,11 @@ for channel in AO N.Y; do
 done
 good compare --json plane.exr plane.exr --channel AO.stderr
 at_most "$(number mean_a)" 0.015626 "1/64, the least error of 64 rays"
+# The bent normal of an open plane is its normal, to what 64 rays know: in world space.
+for channel in X Y Z; do
+    good compare --json plane.exr plane.exr --channel bent.$channel --channel-b N.$channel
+    at_most "$(number mae)" 0.04 "bent.$channel of a plane against its normal"
+done
 # Z and camera serve `ao`: every method sees the plane as the reference does.
 good ao plane.exr -o plane_ao.exr --radius 2
 good compare --json plane.exr plane_ao.exr

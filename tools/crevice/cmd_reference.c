@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -219,18 +220,24 @@ static int copy_normals(const scene_gbuffer *g, const char *const names[3],
 static int write_result(const reference_settings *s, const reference *work,
                         const scene_gbuffer *g, report *r)
 {
-    static const char *const names[] = {"AO", "AO.stderr", "N.X", "N.Y", "N.Z", "Z"};
-    size_t size = (size_t)reference_total(work) * sizeof(float);
+    static const char *const names[] = {"AO",  "AO.stderr", "bent.X", "bent.Y", "bent.Z",
+                                        "N.X", "N.Y",       "N.Z",    "Z"};
+    const size_t count = (size_t)reference_total(work), size = count * sizeof(float);
     io_image image = {0};
-    if (io_image_init(&image, s->view.size.width, s->view.size.height, names, 6,
+    if (io_image_init(&image, s->view.size.width, s->view.size.height, names, 9,
                       &r->logger)
         != 0)
         return EXIT_FAILED;
     memcpy(image.channels[0].data, reference_accessibility(work), size);
     memcpy(image.channels[1].data, reference_error(work), size);
+    gbuffer_to_world(g, reference_bent_normal(work), count,
+                     (float *const[]){image.channels[2].data, image.channels[3].data,
+                                      image.channels[4].data});
     copy_inside(g, g->depth[0], &image, "Z");
-    int result = copy_normals(g, names + 2, &image, r);
+    int result = copy_normals(g, names + 5, &image, r);
     gbuffer_describe_camera(g, &image);
+    snprintf(image.made, sizeof image.made, "crevice %s reference: bent=world",
+             crv_version());
     if (result == EXIT_DONE)
         result = output_write(s->view.output, &image, NULL, r);
     io_image_free(&image);
@@ -283,8 +290,10 @@ const command command_reference = {
     .summary = "ray-traced ambient occlusion of a mesh, to measure others against",
     .synopsis = "MODEL -o FILE.exr [options]",
     .details =
-        "Channels: AO, AO.stderr (its estimated standard error), Z and N.X N.Y N.Z. Both "
-        "sides of triangles occlude. If an interpolated normal deviates from its "
+        "Channels: AO, AO.stderr (its estimated standard error), bent.X bent.Y bent.Z "
+        "(the bent normal: the mean open direction, with AO's weighting and falloff), Z "
+        "and N.X N.Y N.Z, all in world space. Both sides of triangles occlude. If an "
+        "interpolated normal deviates from its "
         "triangle, "
         "rays below the triangle are blocked by it, so the result is that of the "
         "triangles "

@@ -39,15 +39,20 @@ void gbuffer_describe_camera(const scene_gbuffer *g, io_image *image)
 }
 
 /* n_world = transpose(world_to_view) * n_view */
-void gbuffer_world_normals(const scene_gbuffer *g, float *const out[3])
+void gbuffer_to_world(const scene_gbuffer *g, const float *vectors, size_t count,
+                      float *const out[3])
 {
-    size_t count = (size_t)g->desc.width * (size_t)g->desc.height;
     const float *m = g->camera.world_to_view;
     for (size_t i = 0; i < count; i++) {
-        const float *n = &g->normals[3 * i];
+        const float *n = &vectors[3 * i];
         for (int k = 0; k < 3; k++)
             out[k][i] = m[k] * n[0] + m[3 + k] * n[1] + m[6 + k] * n[2];
     }
+}
+
+void gbuffer_world_normals(const scene_gbuffer *g, float *const out[3])
+{
+    gbuffer_to_world(g, g->normals, (size_t)g->desc.width * (size_t)g->desc.height, out);
 }
 
 int gbuffer_make_image(const scene_gbuffer *g, io_image *image, const crv_logger *log)

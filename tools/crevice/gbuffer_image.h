@@ -10,6 +10,10 @@
  * band. */
 void gbuffer_describe_camera(const scene_gbuffer *g, io_image *image);
 
+/* View-space vectors, packed, in world space: a plane for each component. */
+void gbuffer_to_world(const scene_gbuffer *g, const float *vectors, size_t count,
+                      float *const out[3]);
+
 /* Normals in world space, guard band included, a plane for each component. */
 void gbuffer_world_normals(const scene_gbuffer *g, float *const out[3]);
 

@@ -42,11 +42,11 @@ int reference_run_check(reference_run *run, const char *output, bool resume, rep
 }
 
 /* Before the work a full disk is told of: while a checkpoint takes the place of another
- * both are there, and so are the last one and the picture, whose channels take six floats
- * a pixel where they cannot be compressed. */
+ * both are there, and so are the last one and the picture, whose channels take nine
+ * floats a pixel where they cannot be compressed. */
 static int try_room(reference_run *run, const char *output, report *r)
 {
-    size_t picture = (size_t)reference_total(run->work) * 6 * sizeof(float) + 65536;
+    size_t picture = (size_t)reference_total(run->work) * 9 * sizeof(float) + 65536;
     return reference_save(run->work, run->checkpoint, &r->logger) == 0
                    && io_check_room(output, picture, &r->logger) == 0
                ? EXIT_DONE
