@@ -154,7 +154,8 @@ static void test_find_pass(void **state)
     io_image image;
     for (size_t i = 0; i < io_convention_count; i++) {
         const io_convention *row = &io_conventions[i];
-        const bool vector = row->kind == IO_PASS_NORMAL || row->kind == IO_PASS_POSITION;
+        const bool vector = row->kind == IO_PASS_NORMAL || row->kind == IO_PASS_POSITION
+                            || row->kind == IO_PASS_BENT_NORMAL;
         char text[5][128];
         const char *names[5] = {text[0], text[1], text[2], text[3], text[4]};
         for (int c = 0; c < 3; c++)

@@ -105,6 +105,29 @@ expected=$(awk "BEGIN { print (0.924403 * $seen + 0.214041 * (2304 - $seen)) / 2
 at_most "$(number mean_a)" "$(awk "BEGIN { print $expected + 1e-5 }")" "grey background"
 at_least "$(number mean_a)" "$(awk "BEGIN { print $expected - 1e-5 }")" "grey background"
 
+# Bent normals, if both files have them.
+good reference builtin:courtyard --size 64x36 --radius 0.5 --rays 64 -o bent.exr
+good reference builtin:courtyard --size 64x36 --radius 0.5 --rays 64 --seed 1 -o other.exr
+good compare --json bent.exr bent.exr
+[ "$(number bent_pixels)" -eq "$(number pixels)" ] || fail "pixels with bent normals"
+at_most "$(number bent_q95_deg)" 1e-5 "bent normals and themselves"
+good compare --json bent.exr other.exr
+at_least "$(number bent_median_deg)" 0.05 "bent normals of other rays"
+# 64 stratified rays know each component of their mean, which is about 0.6 long, to about
+# 0.03: two such are 4 degrees apart.
+at_most "$(number bent_median_deg)" 6 "bent normals of other rays"
+at_least "$(number bent_q95_deg)" "$(number bent_median_deg)" "95 percent"
+at_most "$(number bent_open_pixels)" "$(($(number bent_pixels) - 1))" "open surfaces"
+good compare --json bent.exr other.exr --open 0
+all=$(number bent_open_pixels)
+good compare --json bent.exr other.exr --open 0.9
+at_most "$(number bent_open_pixels)" "$((all - 1))" "surfaces above 0.9"
+at_least "$(number bent_open)" 0.9 "what counts as open"
+good compare bent.exr other.exr --open 1
+grep -q '^bent     median [0-9.]*, 95 % [0-9.]* degrees of ' stdout.txt || fail "bent normals"
+grep -q '^         none above 1 in B$' stdout.txt || fail "no open surface"
+bad 2 '--open: is for bent normals' compare a.pfm b.pfm --open 0.5
+
 pfm nan.pfm 2 2 nan 1 inf 0
 pfm wide.pfm 4 1 1 1 1 1
 bad 1 'nan.pfm: 2 compared values are NaN or infinite' compare a.pfm nan.pfm

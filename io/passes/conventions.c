@@ -17,6 +17,10 @@
     {                                                                                    \
         .renderer = renderer_, .name = name_, .kind = IO_PASS_AO, __VA_ARGS__            \
     }
+#define BENT_NORMAL(renderer_, name_, ...)                                               \
+    {                                                                                    \
+        .renderer = renderer_, .name = name_, .kind = IO_PASS_BENT_NORMAL, __VA_ARGS__   \
+    }
 #define NORMAL(renderer_, name_, ...)                                                    \
     {                                                                                    \
         .renderer = renderer_, .name = name_, .kind = IO_PASS_NORMAL, __VA_ARGS__        \
@@ -68,6 +72,8 @@ const io_convention io_conventions[] = {
     AO("any", "AmbientOcclusion"),
     AO("any", "Ambient_Occlusion"),
     AO("any", "Occlusion"),
+
+    BENT_NORMAL("Crevice", "bent", .axes = "world or view"),
 
     NORMAL("Arnold, Redshift, Karma, Mantra, Cycles", "N", .axes = "world"),
     NORMAL("Blender", "Normal", .axes = "world, right-handed, z up"),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* conventions.h: how renderers name and write depth and normals, one row each. */
+/* conventions.h: how renderers name and write their passes, one row each. */
 #ifndef CREVICE_IO_PASSES_CONVENTIONS_H
 #define CREVICE_IO_PASSES_CONVENTIONS_H
 
@@ -10,7 +10,8 @@ typedef enum io_pass_kind {
     IO_PASS_DEPTH,
     IO_PASS_NORMAL,
     IO_PASS_POSITION,
-    IO_PASS_AO
+    IO_PASS_AO,
+    IO_PASS_BENT_NORMAL
 } io_pass_kind;
 
 /* A text that is NULL is not fixed by the renderer: the frame's numbers tell. */

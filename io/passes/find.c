@@ -51,12 +51,31 @@ static int find_ao(const io_image *probed, const char *found[3])
     return best < IO__NO_MATCH ? 1 : 0;
 }
 
+static int find_bent_normals(const io_image *probed, const char *found[3])
+{
+    int best = IO__NO_MATCH;
+    for (int32_t i = 0; i < probed->channel_count; i++) {
+        const char *name = probed->channels[i].name, *components[3];
+        const size_t length = io__vector_base_length(name);
+        const io__pieces s = io__split_layer(name, name + length);
+        const int row = length ? io__row_of(&s, IO_PASS_BENT_NORMAL) : -1;
+        if (row < 0 || row >= best
+            || !io__find_components(probed, name, length, components))
+            continue;
+        best = row;
+        memcpy(found, components, sizeof components);
+    }
+    return best < IO__NO_MATCH ? 3 : 0;
+}
+
 int io_find_pass(const io_image *probed, io_pass_kind kind, const char *found[3])
 {
     const io_passes_request request = {0};
     io__pass_names names = {0};
     if (kind == IO_PASS_AO)
         return find_ao(probed, found);
+    if (kind == IO_PASS_BENT_NORMAL)
+        return find_bent_normals(probed, found);
     if (io__choose_depth("", probed, &request, &names, NULL))
         return 0;
     /* A lone Y may be anything. */

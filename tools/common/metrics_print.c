@@ -34,6 +34,17 @@ static void add_fit(cJSON *root, const metrics_fit *fit)
     json_add_number(root, "fit_both_rmse", fit->both.rmse);
 }
 
+static void add_angles(cJSON *root, const metrics_findings *f)
+{
+    json_add_number(root, "bent_pixels", (double)f->bent.pixels);
+    json_add_number(root, "bent_median_deg", f->bent.median_deg);
+    json_add_number(root, "bent_q95_deg", f->bent.q95_deg);
+    json_add_number(root, "bent_open", f->open);
+    json_add_number(root, "bent_open_pixels", (double)f->bent_open.pixels);
+    json_add_number(root, "bent_open_median_deg", f->bent_open.median_deg);
+    json_add_number(root, "bent_open_q95_deg", f->bent_open.q95_deg);
+}
+
 int metrics_print_json(const metrics_findings *f, report *r)
 {
     cJSON *root = cJSON_CreateObject();
@@ -45,11 +56,25 @@ int metrics_print_json(const metrics_findings *f, report *r)
     json_add_number(root, "flip", f->flip);
     json_add_number(root, "flip_ppd", f->flip_ppd);
     add_fit(root, &f->fit);
+    if (f->has_bent)
+        add_angles(root, f);
     if (f->heat_map) {
         json_add_text(root, "heat_map", f->heat_map);
         json_add_number(root, "heat_scale", f->heat_scale);
     }
     return json_print(root, r);
+}
+
+static void print_angles(const metrics_findings *f)
+{
+    printf("bent     median %.3f, 95 %% %.3f degrees of %lld pixels\n",
+           f->bent.median_deg, f->bent.q95_deg, (long long)f->bent.pixels);
+    if (f->bent_open.pixels > 0)
+        printf("         median %.3f, 95 %% %.3f degrees of %lld above %g in B\n",
+               f->bent_open.median_deg, f->bent_open.q95_deg,
+               (long long)f->bent_open.pixels, f->open);
+    else
+        printf("         none above %g in B\n", f->open);
 }
 
 void metrics_print_text(const metrics_findings *f)
@@ -76,4 +101,8 @@ void metrics_print_text(const metrics_findings *f)
            f->fit.intensity.intensity);
     printf("         RMSE %.6f after intensity %.4f and power %.4f\n", f->fit.both.rmse,
            f->fit.both.intensity, f->fit.both.power);
+    if (f->has_bent && f->bent.pixels > 0)
+        print_angles(f);
+    else if (f->has_bent)
+        printf("bent     no pixel with a direction in both\n");
 }

@@ -3,6 +3,7 @@
 #define TOOL_METRICS_PRINT_H
 
 #include "metrics.h"
+#include "metrics_angles.h"
 #include "metrics_fit.h"
 #include "report.h"
 
@@ -13,6 +14,9 @@ typedef struct metrics_findings {
     metrics m;
     metrics_fit fit;
     double flip, flip_ppd;
+    bool has_bent; /* both have bent normals */
+    double open;   /* accessibility of B above which surfaces are open */
+    metrics_angles bent, bent_open;
     const char *heat_map; /* NULL: none was written */
     double heat_scale;
 } metrics_findings;

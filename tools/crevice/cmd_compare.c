@@ -18,7 +18,7 @@ typedef struct compare_settings {
     const char *channel, *channel_b;
     arg_number ppd;
     const char *heat_map;
-    arg_number heat_scale;
+    arg_number heat_scale, open;
     bool json;
 } compare_settings;
 
@@ -41,6 +41,13 @@ static const arg compare_rows[] = {
      ARG_INTO(ARG_TEXT, compare_settings, channel_b),
      .computed = "as for A",
      .help = "the channel of B, if its name differs"},
+    {.name = "--open",
+     .value = "A",
+     ARG_RANGE(0.0, 1.0),
+     .initial = "0.5",
+     ARG_INTO(ARG_NUMBER, compare_settings, open),
+     .help = "bent normals are also compared on open surfaces alone: where the channel "
+             "of B is above this"},
     {.name = "--ppd",
      .value = "X",
      ARG_RANGE(FLIP_PPD_MIN, FLIP_PPD_MAX),
@@ -84,7 +91,10 @@ typedef struct picture {
     const float *values;
     const float *depth;     /* NULL: there is none */
     const float *normal[3]; /* all or none */
+    const float *bent[3];   /* bent normals: all or none */
 } picture;
+
+enum { MAX_READ = 8 };
 
 static const char *choose_channel(const char *path, const io_image *probe,
                                   const char *wanted, report *r)
@@ -110,7 +120,7 @@ static const char *choose_channel(const char *path, const io_image *probe,
 }
 
 /* The place of a name in the list, to which it is added if it is not there yet. */
-static int32_t place_of(const char *names[5], int32_t *count, const char *name)
+static int32_t place_of(const char *names[MAX_READ], int32_t *count, const char *name)
 {
     for (int32_t i = 0; i < *count; i++)
         if (strcmp(names[i], name) == 0)
@@ -122,17 +132,21 @@ static int32_t place_of(const char *names[5], int32_t *count, const char *name)
 static int read_channels(const char *path, const io_image *probe, const char *chosen,
                          picture *out, report *r)
 {
-    const char *names[5], *depth[3], *normal[3];
+    const char *names[MAX_READ], *depth[3], *normal[3], *bent[3];
     int32_t count = 0, depth_at = -1, normal_at[3] = {-1, -1, -1};
+    int32_t bent_at[3] = {-1, -1, -1};
     place_of(names, &count, chosen);
     if (io_find_pass(probe, IO_PASS_DEPTH, depth))
         depth_at = place_of(names, &count, depth[0]);
     if (io_find_pass(probe, IO_PASS_NORMAL, normal))
         for (int i = 0; i < 3; i++)
             normal_at[i] = place_of(names, &count, normal[i]);
+    if (io_find_pass(probe, IO_PASS_BENT_NORMAL, bent))
+        for (int i = 0; i < 3; i++)
+            bent_at[i] = place_of(names, &count, bent[i]);
     /* Passes of parts with other windows tell nothing of the compared pixels. */
     if (io_read(path, names, count, &out->image, NULL) != 0) {
-        depth_at = normal_at[0] = -1;
+        depth_at = normal_at[0] = bent_at[0] = -1;
         if (io_read(path, names, 1, &out->image, &r->logger) != 0)
             return EXIT_FAILED;
     }
@@ -140,6 +154,8 @@ static int read_channels(const char *path, const io_image *probe, const char *ch
     out->depth = depth_at >= 0 ? out->image.channels[depth_at].data : NULL;
     for (int i = 0; i < 3 && normal_at[0] >= 0; i++)
         out->normal[i] = out->image.channels[normal_at[i]].data;
+    for (int i = 0; i < 3 && bent_at[0] >= 0; i++)
+        out->bent[i] = out->image.channels[bent_at[i]].data;
     return EXIT_DONE;
 }
 
@@ -201,15 +217,58 @@ static uint8_t *make_mask(const picture *a, const picture *b, report *r)
     return mask;
 }
 
-static bool finite_values(const char *path, const picture *p, const uint8_t *mask,
-                          report *r)
+static bool finite_values(const char *path, const picture *p, const float *values,
+                          const uint8_t *mask, report *r)
 {
     const int64_t bad =
-        metrics_count_not_finite(p->values, mask, p->image.width, p->image.height);
+        metrics_count_not_finite(values, mask, p->image.width, p->image.height);
     if (bad > 0)
         report_error(r, "%s: %lld compared values are NaN or infinite; mend the picture",
                      path, (long long)bad);
     return bad == 0;
+}
+
+/* The space of the bent normals, if the file says it; else NULL. */
+static const char *space_of(const picture *p)
+{
+    return strstr(p->image.made, " bent=view")    ? "view"
+           : strstr(p->image.made, " bent=world") ? "world"
+                                                  : NULL;
+}
+
+/* Angles of the bent normals, if both files have them; the mask is narrowed to the open
+ * surfaces. */
+static int measure_angles(const compare_settings *s, const picture *a, const picture *b,
+                          uint8_t *mask, metrics_findings *f, report *r)
+{
+    const size_t count = (size_t)a->image.width * (size_t)a->image.height;
+    const char *space_a = space_of(a), *space_b = space_of(b);
+    f->has_bent = a->bent[0] && b->bent[0];
+    if (!f->has_bent && s->open.given) {
+        report_error(r, "--open: is for bent normals, which %s lacks; leave it out",
+                     a->bent[0] ? s->b : s->a);
+        return EXIT_USAGE;
+    }
+    if (!f->has_bent)
+        return EXIT_DONE;
+    if (space_a && space_b && strcmp(space_a, space_b) != 0) {
+        report_error(r,
+                     "%s: its bent normals are in %s space, those of %s in %s space; "
+                     "make both with one --bent-space",
+                     s->a, space_a, s->b, space_b);
+        return EXIT_FAILED;
+    }
+    for (int i = 0; i < 3; i++)
+        if (!finite_values(s->a, a, a->bent[i], mask, r)
+            || !finite_values(s->b, b, b->bent[i], mask, r))
+            return EXIT_FAILED;
+    if (!metrics_compare_angles(a->bent, b->bent, mask, count, &f->bent))
+        return report_no_memory(r);
+    for (size_t i = 0; i < count; i++)
+        mask[i] = mask[i] && (double)b->values[i] > s->open.value;
+    return metrics_compare_angles(a->bent, b->bent, mask, count, &f->bent_open)
+               ? EXIT_DONE
+               : report_no_memory(r);
 }
 
 /* Pixels from which on it may take longer than ten seconds, and the share of them that
@@ -257,7 +316,8 @@ static int measure(const compare_settings *s, const picture *a, const picture *b
                    const uint8_t *mask, metrics_findings *f, report *r)
 {
     const int32_t height = a->image.height;
-    if (!finite_values(s->a, a, mask, r) || !finite_values(s->b, b, mask, r))
+    if (!finite_values(s->a, a, a->values, mask, r)
+        || !finite_values(s->b, b, b->values, mask, r))
         return EXIT_FAILED;
     announce(s, a, b, mask, r);
     progress p = progress_begin(r, "compare", 0, (int64_t)PARTS * height);
@@ -285,6 +345,7 @@ static int compare(const compare_settings *s, const picture *a, const picture *b
                           .width = a->image.width,
                           .height = a->image.height,
                           .flip_ppd = s->ppd.value,
+                          .open = s->open.value,
                           .heat_map = s->heat_map,
                           .heat_scale = s->heat_scale.value};
     if (a->image.width != b->image.width || a->image.height != b->image.height) {
@@ -300,6 +361,8 @@ static int compare(const compare_settings *s, const picture *a, const picture *b
     source.mask = mask;
     if (result == EXIT_DONE && s->heat_map)
         result = heatmap_write(s->heat_map, &source, r);
+    if (result == EXIT_DONE)
+        result = measure_angles(s, a, b, mask, &f, r);
     free(mask);
     if (result == EXIT_DONE && s->json)
         return metrics_print_json(&f, r);
@@ -352,7 +415,9 @@ const command command_compare = {
         "max(0, 1 - intensity (1 - A))^power with the intensity in 0 to 100 and the "
         "power "
         "in 0.01 to 100 that bring it nearest to B: what differs in strength only can be "
-        "mended with --intensity and --contrast.",
+        "mended with --intensity and --contrast. If both files have bent normals (bent.X "
+        "bent.Y bent.Z, in the same space), 50 and 95 percent of the angles between them "
+        "are below the two given.",
     .tables = tables,
     .examples = examples,
     .settings_size = sizeof(compare_settings),

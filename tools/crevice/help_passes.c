@@ -39,6 +39,8 @@ void help_passes(FILE *out)
             "\nAmbient occlusion, which `crevice compare` takes, as NAME.R, .V, .Y or "
             "a channel itself:\n");
     print_rows(out, IO_PASS_AO);
+    fprintf(out, "\nBent normals, which `crevice compare` takes, as NAME.X .Y .Z:\n");
+    print_rows(out, IO_PASS_BENT_NORMAL);
     fprintf(out, "\nOther names are taken if they contain \"depth\", \"position\", "
                  "\"normal\" or \"occlusion\"; "
                  "--depth and --normal choose any.\n");
