@@ -19,7 +19,7 @@ typedef struct planner {
     const io_addition *additions;
     int32_t count;
     io__exr_copy copy;
-    io__exr_layer *layers; /* of the additions; owned */
+    io__exr_layer *layers; /* the additions' pictures, then their factors; owned */
     char (*note_names)[NOTE_SIZE];
 } planner;
 
@@ -105,24 +105,39 @@ static io__exr_plane make_plane(const planner *p, int32_t index)
                            .x_sampling = 1,
                            .y_sampling = 1,
                            .source = -1,
-                           .layer = &p->layers[index]};
+                           .layer = &p->layers[index],
+                           .channel = p->additions[index].channel,
+                           .outside = p->additions[index].zero_outside ? 0.0f : 1.0f};
 }
 
-static int add_part(planner *p, int32_t index, int beside)
+static const char *part_name(const io_addition *addition)
+{
+    return addition->part ? addition->part : addition->name;
+}
+
+/* The channel is of a new part, which an addition before it may have made. Returns the
+ * part, or -1. */
+static int add_to_new_part(planner *p, int32_t index, int beside)
 {
     io__exr_copy *copy = &p->copy;
-    io__exr_copy_part made = {.source = -1,
-                              .name = p->additions[index].name,
-                              .beside = beside,
-                              .is_changed = true,
-                              .compression = EXR_COMPRESSION_ZIP,
-                              .plane_count = 1};
-    made.planes = malloc(sizeof *made.planes);
-    if (!made.planes)
-        return fail_memory(p->file);
-    made.planes[0] = make_plane(p, index);
-    copy->parts[copy->part_count++] = made;
-    return 0;
+    const char *name = part_name(&p->additions[index]);
+    int part = copy->in.part_count;
+    while (part < copy->part_count && strcmp(copy->parts[part].name, name) != 0)
+        part++;
+    io__exr_copy_part *made = &copy->parts[part];
+    if (part == copy->part_count) {
+        *made = (io__exr_copy_part){.source = -1,
+                                    .name = name,
+                                    .beside = beside,
+                                    .is_changed = true,
+                                    .compression = EXR_COMPRESSION_ZIP};
+        made->planes = calloc((size_t)p->count, sizeof *made->planes);
+        if (!made->planes)
+            return fail_memory(p->file);
+        copy->part_count++;
+    }
+    made->planes[made->plane_count++] = make_plane(p, index);
+    return part;
 }
 
 /* A clash of names; the channel that is there, or NULL, in *there. */
@@ -142,9 +157,10 @@ static int check_name(const planner *p, const io_addition *addition,
                         "it to be replaced",
                         addition->name);
     if (!*there && p->copy.in.part_count > 1
-        && part_is_named(&p->copy.in, addition->name))
+        && part_is_named(&p->copy.in, part_name(addition)))
         return io__fail(file->log, file->path,
-                        "has a part \"%s\" already; choose another name", addition->name);
+                        "has a part \"%s\" already; choose another name",
+                        part_name(addition));
     for (const io_addition *other = p->additions; other < addition; other++)
         if (other->is_added && !strcmp(other->name, addition->name))
             return io__fail(file->log, file->path,
@@ -161,7 +177,7 @@ static int plan_channel(planner *p, int32_t index, int beside)
     if (check_name(p, addition, &there))
         return -1;
     if (!there && p->copy.in.part_count > 1)
-        return add_part(p, index, beside) ? -1 : p->copy.part_count - 1;
+        return add_to_new_part(p, index, beside);
     const int part = there ? there->part : beside;
     if (change_part(p, part))
         return -1;
@@ -179,14 +195,15 @@ static int plan_channel(planner *p, int32_t index, int beside)
     return part;
 }
 
-static float tint_of(const io_append_options *options, const char *channel)
+/* 0: red, 1: green, 2: blue, -1: another channel. */
+static int colour_of(const char *channel)
 {
     static const char *const names[] = {"r", "red", "g", "green", "b", "blue"};
     const char *dot = strrchr(channel, '.');
     for (int i = 0; i < 6; i++)
         if (!strcasecmp(dot ? dot + 1 : channel, names[i]))
-            return options->tint[i / 2];
-    return (options->tint[0] + options->tint[1] + options->tint[2]) / 3.0f;
+            return i / 2;
+    return -1;
 }
 
 static int plan_multiplied(planner *p, int32_t index, const char *name)
@@ -208,35 +225,43 @@ static int plan_multiplied(planner *p, int32_t index, const char *name)
                         "channel \"%s\" is to be multiplied twice, or replaced; name it "
                         "once",
                         name);
-    plane->layer = &p->layers[index];
-    plane->tint = tint_of(p->options, name);
+    const int colour = colour_of(name);
+    const float *tint = p->options->tint;
+    const bool by_factors = p->additions[index].factors;
+    plane->layer = &p->layers[by_factors ? p->count + index : index];
+    plane->channel = by_factors ? colour : p->additions[index].channel;
+    plane->outside = 1.0f;
+    plane->tint = colour >= 0 ? tint[colour] : (tint[0] + tint[1] + tint[2]) / 3.0f;
     return 0;
 }
 
-/* Where the picture lies in the coordinates of the file. */
+/* Where the pictures lie in the coordinates of the file. */
 static int place(planner *p, int32_t index, int beside)
 {
-    const io_image *picture = p->additions[index].picture;
+    const io_image *pictures[] = {p->additions[index].picture,
+                                  p->additions[index].factors};
     exr_attr_box2i_t display;
     const exr_result_t code =
         exr_get_display_window(p->copy.in.context, beside, &display);
     if (code)
         return io__exr_fail(&p->copy.in, code, "its windows are missing from the header");
-    if (!picture)
-        return 0;
-    p->layers[index] = (io__exr_layer){.picture = picture,
-                                       .x = (int64_t)display.min.x + picture->data_x,
-                                       .y = (int64_t)display.min.y + picture->data_y};
+    for (int i = 0; i < 2; i++)
+        if (pictures[i])
+            p->layers[i * p->count + index] =
+                (io__exr_layer){.picture = pictures[i],
+                                .x = (int64_t)display.min.x + pictures[i]->data_x,
+                                .y = (int64_t)display.min.y + pictures[i]->data_y};
     return 0;
 }
 
 static void add_note(planner *p, int32_t index, int part)
 {
     io__exr_copy *copy = &p->copy;
+    if (!p->additions[index].made)
+        return;
     snprintf(p->note_names[index], NOTE_SIZE, NOTE_PREFIX "%s", p->additions[index].name);
     copy->notes[copy->note_count++] =
-        (io__exr_note){part, p->note_names[index],
-                       p->additions[index].made ? p->additions[index].made : ""};
+        (io__exr_note){part, p->note_names[index], p->additions[index].made};
 }
 
 static int plan_addition(planner *p, int32_t index)
@@ -271,7 +296,7 @@ static int plan(planner *p)
     const size_t parts = (size_t)(copy->in.part_count + p->count);
     copy->parts = calloc(parts, sizeof *copy->parts);
     copy->notes = calloc((size_t)p->count, sizeof *copy->notes);
-    p->layers = calloc((size_t)p->count, sizeof *p->layers);
+    p->layers = calloc(2 * (size_t)p->count, sizeof *p->layers);
     p->note_names = calloc((size_t)p->count, sizeof *p->note_names);
     if (!copy->parts || !copy->notes || !p->layers || !p->note_names)
         return fail_memory(p->file);

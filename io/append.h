@@ -11,16 +11,24 @@
 
 /* A picture and what becomes of it. */
 typedef struct io_addition {
-    const io_image *picture; /* its first channel; lies where its data window says. NULL
-                                in io_append_check() */
+    const io_image *picture; /* lies where its data window says. NULL in
+                                io_append_check() */
+    int32_t channel;         /* of the picture */
     const char *beside;      /* a channel of the file, as io_probe() names it. The picture
                                 belongs to the same part and eye */
     const char *name;        /* of the new channel. The attribute "crevice.NAME" holds: */
-    const char *made;        /* what made the picture */
+    const char *made;        /* what made the picture; NULL: there is no attribute */
     bool is_added;           /* false: only multiplied */
+    bool zero_outside;       /* pixels that the picture does not cover get 0, not 1 */
+    /* In a file of several parts: the name of the new part, which several additions may
+     * share. NULL: that of the channel. */
+    const char *part;
     /* Channels of the file to multiply, as io_probe() names them. */
     int32_t multiplied_count;
     const char *const *multiplied;
+    /* What red, green and blue are multiplied by: three channels, others get their mean.
+     * NULL: the picture's channel multiplies all. Unused in io_append_check(). */
+    const io_image *factors;
 } io_addition;
 
 typedef struct io_append_options {
@@ -34,8 +42,7 @@ typedef struct io_append_options {
 
 /*
  * Writes the copy, as io_write() writes. A file of one part gets further channels in that
- * part; a file of several gets a further part for each picture, named like the channel.
- * Pixels that the picture does not cover get 1. A part whose channels are added to or
+ * part; a file of several gets further parts. A part whose channels are added to or
  * multiplied keeps its compression if that is lossless; what lossy compression left of
  * its pixels is written with ZIP. Other parts are copied as they are packed. Errors: deep
  * and mip-mapped parts cannot be added to or multiplied, nor can channels of integers.

@@ -19,7 +19,9 @@ typedef struct io__exr_plane {
     int32_t x_sampling, y_sampling;
     int32_t source; /* channel of the input's part; -1: the picture itself */
     const io__exr_layer
-        *layer; /* the picture, or what multiplies the source; NULL: none */
+        *layer;      /* the picture, or what multiplies the source; NULL: none */
+    int32_t channel; /* of the picture; -1: the mean of its three */
+    float outside;   /* stands for pixels that the picture does not cover */
     float tint;
 } io__exr_plane;
 

@@ -90,14 +90,18 @@ static bool find_line(const worker *w, int32_t y)
     return true;
 }
 
-/* What the picture holds at a pixel of the file; 1 beside it. */
-static float value_at(const io__exr_layer *layer, int64_t x, int64_t y)
+/* What the plane's picture holds at a pixel of the file. */
+static float value_at(const io__exr_plane *plane, int64_t x, int64_t y)
 {
-    const int64_t column = x - layer->x, row = y - layer->y;
-    const io_image *picture = layer->picture;
+    const int64_t column = x - plane->layer->x, row = y - plane->layer->y;
+    const io_image *picture = plane->layer->picture;
     if (column < 0 || row < 0 || column >= picture->width || row >= picture->height)
-        return 1.0f;
-    return picture->channels[0].data[row * picture->width + column];
+        return plane->outside;
+    const int64_t at = row * picture->width + column;
+    const io_channel *channels = picture->channels;
+    if (plane->channel >= 0)
+        return channels[plane->channel].data[at];
+    return (channels[0].data[at] + channels[1].data[at] + channels[2].data[at]) / 3.0f;
 }
 
 static void store(unsigned char *at, uint32_t bits, int32_t size)
@@ -147,7 +151,7 @@ static void fill(const worker *w, const io__exr_plane *plane, int32_t y, int32_t
         return;
     }
     for (int32_t x = 0; x < width; x++) {
-        const float value = value_at(plane->layer, (int64_t)w->x + x, y);
+        const float value = value_at(plane, (int64_t)w->x + x, y);
         const uint32_t bits =
             plane->source < 0
                 ? bits_of(value, plane->type)

@@ -139,6 +139,18 @@ int io__colour_channels(const io_image *image, int32_t index[3], const char *pat
     return count;
 }
 
+crv_image io_image_view(const io_image *image, int32_t first, int32_t channels)
+{
+    const ptrdiff_t row = (ptrdiff_t)image->width * (ptrdiff_t)sizeof(float);
+    return (crv_image){.data = image->channels[first].data,
+                       .width = image->width,
+                       .height = image->height,
+                       .channels = channels,
+                       .row_stride = row,
+                       .pixel_stride = sizeof(float),
+                       .channel_stride = row * image->height};
+}
+
 void io_copy_window(const io_image *from, const float *source, const io_image *to,
                     float *target)
 {

@@ -71,6 +71,9 @@ void io_image_free(io_image *image);
 /* The channel of exactly this name, or NULL. */
 io_channel *io_image_find(const io_image *image, const char *name);
 
+/* A view of so many channels in a row, from this one on. */
+crv_image io_image_view(const io_image *image, int32_t first, int32_t channels);
+
 /* Reads everything but the pixels: sizes, metadata, channel names of all parts. */
 int io_probe(const char *path, io_image *out, const crv_logger *log);
 

@@ -228,15 +228,24 @@ void scene_sky_irradiance(const scene_lighting *lighting, const float normal[3],
 void scene_sky_radiance(const scene_lighting *lighting, const float direction[3],
                         float rgb[3]);
 
+/* What darkens the sky's light; images lie inside the guard band. */
+typedef struct scene_occlusion {
+    /* One channel, or three: of red, green and blue light. data NULL: all open. */
+    crv_const_image accessibility;
+    /* Three channels, view space: the sky lights a surface as if it faced there. data
+     * NULL: the normals. */
+    crv_const_image bent_normal;
+} scene_occlusion;
+
 /*
  * Lights the picture inside the guard band:
  * albedo (irradiance / pi * accessibility + key_colour max(0, n.l) shadow). Accessibility
  * does not darken the key light, whose shadows are ray-cast. lighting NULL: the default.
- * accessibility: one channel, or NULL for a picture without ambient occlusion. rgb: three
- * channels, linear; background gets the sky.
+ * occlusion NULL: a picture without ambient occlusion. rgb: three channels, linear;
+ * background gets the sky.
  */
 int scene_shade(const scene *s, const scene_gbuffer *g, const scene_lighting *lighting,
-                const crv_image *accessibility, const crv_image *rgb, int32_t threads,
+                const scene_occlusion *occlusion, const crv_image *rgb, int32_t threads,
                 const crv_logger *log);
 
 #endif

@@ -52,7 +52,19 @@ static bool in_shadow(const lighting *l, vec3 origin)
     return embree_occluded(l->scene->rtc, &ray);
 }
 
-static vec3 shade_pixel(const lighting *l, int32_t x, int32_t y, double accessibility)
+/* How open a surface is to each colour of the sky, and to where. */
+typedef struct opening {
+    vec3 accessibility;
+    vec3 bent_normal; /* view space; zero: the normal */
+} opening;
+
+static vec3 view_to_world(const lighting *l, vec3 v)
+{
+    return v3_along(v3_along(v3_scale(l->axes.right, v.x), l->axes.up, v.y), l->axes.back,
+                    v.z);
+}
+
+static vec3 shade_pixel(const lighting *l, int32_t x, int32_t y, const opening *open)
 {
     const scene_gbuffer *g = l->gbuffer;
     size_t pixel = (size_t)y * (size_t)g->desc.width + (size_t)x;
@@ -60,12 +72,13 @@ static vec3 shade_pixel(const lighting *l, int32_t x, int32_t y, double accessib
     pixel_ray ray = ray_through_pixel(&g->camera, &l->axes, x, y);
     if (!(depth > 0.0 && isfinite(depth)))
         return sky_radiance(&l->light, to_sky(l, v3_normalise(ray.direction)));
-    vec3 n = v3_from(g->normals + 3 * pixel);
-    vec3 normal = v3_along(v3_along(v3_scale(l->axes.right, n.x), l->axes.up, n.y),
-                           l->axes.back, n.z);
+    vec3 normal = view_to_world(l, v3_from(g->normals + 3 * pixel));
+    vec3 facing_sky = v3_dot(open->bent_normal, open->bent_normal) > 0.0
+                          ? view_to_world(l, v3_normalise(open->bent_normal))
+                          : normal;
     vec3 point = v3_along(ray.origin, ray.direction, depth);
-    vec3 light = v3_scale(sky_irradiance(&l->light, &l->table, to_sky(l, normal)),
-                          accessibility / SCENE_PI);
+    vec3 light = multiply(sky_irradiance(&l->light, &l->table, to_sky(l, facing_sky)),
+                          v3_scale(open->accessibility, 1.0 / SCENE_PI));
     double facing = v3_dot(normal, l->to_key);
     if (l->has_key && facing > 0.0
         && !in_shadow(l, shadow_origin(l, point, normal, depth)))
@@ -73,24 +86,44 @@ static vec3 shade_pixel(const lighting *l, int32_t x, int32_t y, double accessib
     return multiply(v3_from(g->albedo + 3 * pixel), light);
 }
 
-static void shade_row(const lighting *l, const crv_image *accessibility,
+/* One channel stands for all three. */
+static vec3 vector_at(const crv_const_image *image, int32_t x, int32_t y)
+{
+    const int32_t step = image->channels > 1 ? 1 : 0;
+    return v3((double)*crv_const_image_at(image, x, y, 0),
+              (double)*crv_const_image_at(image, x, y, step),
+              (double)*crv_const_image_at(image, x, y, 2 * step));
+}
+
+static void shade_row(const lighting *l, const scene_occlusion *occlusion,
                       const crv_image *rgb, int32_t y)
 {
     const crv_gbuffer_desc *d = &l->gbuffer->desc;
     for (int32_t x = 0; x < rgb->width; x++) {
-        double open = accessibility ? (double)*crv_image_at(accessibility, x, y, 0) : 1.0;
-        vec3 colour = shade_pixel(l, x + d->guard_left, y + d->guard_top, open);
+        opening open = {.accessibility = {1.0, 1.0, 1.0}};
+        if (occlusion->accessibility.data)
+            open.accessibility = vector_at(&occlusion->accessibility, x, y);
+        if (occlusion->bent_normal.data)
+            open.bent_normal = vector_at(&occlusion->bent_normal, x, y);
+        vec3 colour = shade_pixel(l, x + d->guard_left, y + d->guard_top, &open);
         *crv_image_at(rgb, x, y, 0) = (float)colour.x;
         *crv_image_at(rgb, x, y, 1) = (float)colour.y;
         *crv_image_at(rgb, x, y, 2) = (float)colour.z;
     }
 }
 
-static bool covers(const crv_image *image, const crv_gbuffer_desc *d, int32_t channels)
+static bool covers(int32_t width, int32_t height, const crv_gbuffer_desc *d)
 {
-    return image->data && image->channels == channels
-           && image->width == d->width - d->guard_left - d->guard_right
-           && image->height == d->height - d->guard_top - d->guard_bottom;
+    return width == d->width - d->guard_left - d->guard_right
+           && height == d->height - d->guard_top - d->guard_bottom;
+}
+
+static bool fits(const crv_const_image *image, const crv_gbuffer_desc *d,
+                 bool may_be_grey)
+{
+    return !image->data
+           || (covers(image->width, image->height, d)
+               && (image->channels == 3 || (may_be_grey && image->channels == 1)));
 }
 
 /* The axes' images under the shortest turn that takes +Y to the zenith. */
@@ -129,12 +162,14 @@ static void prepare(lighting *l, const scene_lighting *given)
 }
 
 int scene_shade(const scene *s, const scene_gbuffer *g, const scene_lighting *light,
-                const crv_image *accessibility, const crv_image *rgb, int32_t threads,
+                const scene_occlusion *occlusion, const crv_image *rgb, int32_t threads,
                 const crv_logger *log)
 {
+    const scene_occlusion given = occlusion ? *occlusion : (scene_occlusion){0};
     lighting l = {.scene = s, .gbuffer = g};
-    if (!covers(rgb, &g->desc, 3)
-        || (accessibility && !covers(accessibility, &g->desc, 1))
+    if (!rgb->data || rgb->channels != 3 || !covers(rgb->width, rgb->height, &g->desc)
+        || !fits(&given.accessibility, &g->desc, true)
+        || !fits(&given.bent_normal, &g->desc, false)
         || !scene_axes_of_view(&g->view, g->origin, &l.axes)) {
         scene_log(log, CRV_LOG_ERROR, "picture",
                   "does not fit the G-buffer; give it the size inside the guard band");
@@ -147,6 +182,6 @@ int scene_shade(const scene *s, const scene_gbuffer *g, const scene_lighting *li
     (void)threads;
 #endif
     for (int32_t y = 0; y < rgb->height; y++)
-        shade_row(&l, accessibility, rgb, y);
+        shade_row(&l, &given, rgb, y);
     return 0;
 }

@@ -574,6 +574,117 @@ static void test_multiplied(void **state)
     support_forget();
 }
 
+/* Each colour by its own factor, other channels by the mean of the three, tints on top;
+ * pixels without a factor stay. */
+static void test_factors(void **state)
+{
+    const char *input = support_path("colour.exr"), *output = support_path("copy.exr");
+    static const char *const names[] = {"a.B", "a.G", "a.R", "y"};
+    static const char *const colours[] = {"R", "G", "B"};
+    const float eight[3] = {8.0f, 8.0f, 8.0f};
+    const float *const planes[] = {eight, eight, eight, eight};
+    io_image picture = make_picture(0, 0, 3, 1), factors, read;
+    const io_append_options tinted = {.tint = {0.5f, 0.0f, 0.0f}};
+    (void)state;
+    assert_int_equal(io_image_init(&factors, 2, 1, colours, 3, NULL), 0);
+    for (int32_t i = 0; i < 2; i++) {
+        factors.channels[0].data[i] = 0.5f;
+        factors.channels[1].data[i] = 0.25f;
+        factors.channels[2].data[i] = i ? 1.0f : 0.75f;
+    }
+    factors.data_x = 1;
+    const io_addition addition = {.picture = &picture,
+                                  .beside = "y",
+                                  .name = "AO",
+                                  .is_added = true,
+                                  .multiplied_count = 4,
+                                  .multiplied = names,
+                                  .factors = &factors};
+    support_make_plain_exr(input, names, 4, 3, 1, planes);
+    assert_int_equal(io_append(input, output, &addition, 1, &tinted, support_logger()),
+                     0);
+    assert_int_equal(io_read(output, NULL, 0, &read, support_logger()), 0);
+    const float red[3] = {8.0f, 6.0f, 6.0f}, green[3] = {8.0f, 2.0f, 2.0f};
+    const float blue[3] = {8.0f, 6.0f, 8.0f};
+    assert_memory_equal(io_image_find(&read, "a.R")->data, red, sizeof red);
+    assert_memory_equal(io_image_find(&read, "a.G")->data, green, sizeof green);
+    assert_memory_equal(io_image_find(&read, "a.B")->data, blue, sizeof blue);
+    /* The mean is 1/2, then 7/12; the tint's is 1/6. */
+    const float *other = io_image_find(&read, "y")->data;
+    assert_float_equal(other[0], 8.0f, 0.0f);
+    assert_float_equal(other[1], 8.0f * (1.0f + 5.0f / 2.0f) / 6.0f, 1e-6f);
+    assert_float_equal(other[2], 8.0f * (1.0f + 35.0f / 12.0f) / 6.0f, 1e-6f);
+    /* What is added is the picture itself. */
+    assert_memory_equal(io_image_find(&read, "AO")->data, picture.channels[0].data,
+                        3 * sizeof(float));
+    io_image_free(&read);
+    io_image_free(&factors);
+    io_image_free(&picture);
+    support_forget();
+}
+
+/* Three channels of one picture, 0 where it does not reach; in a file of several parts
+ * they share one. */
+static void test_vectors(void **state)
+{
+    static const char *const names[] = {"bent.X", "bent.Y", "bent.Z"};
+    const char *output = support_path("copy.exr");
+    io_image picture;
+    (void)state;
+    assert_int_equal(io_image_init(&picture, 2, 3, names, 3, NULL), 0);
+    picture.data_x = 1;
+    for (int32_t i = 0; i < 18; i++) /* channels lie in a row */
+        picture.channels[0].data[i] = (float)(i + 1) / 32.0f;
+    for (int parts = 0; parts < 2; parts++) {
+        const char *input = support_path("in.exr");
+        io_image probed, read;
+        io_addition additions[3];
+        size_t size;
+        attribute a;
+        make_studio_file(input, parts);
+        assert_int_equal(io_probe(input, &probed, support_logger()), 0);
+        for (int32_t i = 0; i < 3; i++)
+            additions[i] = (io_addition){.picture = &picture,
+                                         .channel = i,
+                                         .beside = parts ? "depth.Z" : "Z",
+                                         .name = names[i],
+                                         .is_added = true,
+                                         .zero_outside = true,
+                                         .part = "bent"};
+        const int32_t before = probed.channel_count;
+        io_image_free(&probed);
+        assert_int_equal(
+            io_append(input, output, additions, 3, &no_options, support_logger()), 0);
+        assert_int_equal(io_probe(output, &probed, support_logger()), 0);
+        assert_int_equal(probed.channel_count, before + 3);
+        io_image_free(&probed);
+        assert_int_equal(io_read(output, names, 3, &read, support_logger()), 0);
+        for (int32_t c = 0; c < 3; c++)
+            for (int32_t y = 0; y < read.height; y++)
+                for (int32_t x = 0; x < read.width; x++) {
+                    const int32_t column = x + read.data_x - picture.data_x;
+                    const int32_t row = y + read.data_y - picture.data_y;
+                    const bool inside = column >= 0 && column < 2 && row >= 0 && row < 3;
+                    const float expected =
+                        inside ? picture.channels[c].data[2 * row + column] : 0.0f;
+                    assert_float_equal(read.channels[c].data[y * read.width + x],
+                                       expected, 0.0f);
+                }
+        io_image_free(&read);
+        unsigned char *file = support_read_file(output, &size);
+        if (parts) {
+            assert_true(find_attribute(file, 2, "name", &a));
+            assert_int_equal(a.size, 4);
+            assert_memory_equal(a.data, "bent", 4);
+        }
+        /* Nobody said how they were made. */
+        assert_false(find_attribute(file, parts ? 2 : 0, "crevice.bent.X", &a));
+        free(file);
+    }
+    io_image_free(&picture);
+    support_forget();
+}
+
 /* Half floats are rounded to the nearest: 3 * 1/4 and 2047 * 3/4 = 1535.25, of which the
  * step is 1; integers are refused. */
 static void test_multiplied_types(void **state)
@@ -648,6 +759,7 @@ int main(void)
         cmocka_unit_test(test_upside_down),  cmocka_unit_test(test_attributes),
         cmocka_unit_test(test_parts),        cmocka_unit_test(test_clashes),
         cmocka_unit_test(test_levels),       cmocka_unit_test(test_many_channels),
+        cmocka_unit_test(test_factors),      cmocka_unit_test(test_vectors),
         cmocka_unit_test(test_multiplied),   cmocka_unit_test(test_multiplied_types),
         cmocka_unit_test(test_cut_off)};
     return cmocka_run_group_tests(tests, support_setup, support_teardown);

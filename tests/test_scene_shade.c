@@ -20,9 +20,10 @@ typedef struct picture {
 
 static void shade(const picture *p, float *accessibility, float *rgb, int32_t threads)
 {
-    crv_image ao, image = crv_image_packed(rgb, WIDTH, HEIGHT, 3);
+    crv_image image = crv_image_packed(rgb, WIDTH, HEIGHT, 3);
+    scene_occlusion ao = {0};
     if (accessibility)
-        ao = crv_image_packed(accessibility, WIDTH, HEIGHT, 1);
+        ao.accessibility = crv_const_image_packed(accessibility, WIDTH, HEIGHT, 1);
     assert_int_equal(scene_shade(p->scene, &p->gbuffer, NULL, accessibility ? &ao : NULL,
                                  &image, threads, NULL),
                      0);
@@ -128,7 +129,8 @@ static void shade_floor(const scene_lighting *light, float *accessibility, float
     scene_gbuffer_request request = request_of(&view, WIDTH, HEIGHT);
     scene_gbuffer g = render(s, &request);
     crv_image image = crv_image_packed(rgb, WIDTH, HEIGHT, 3);
-    crv_image ao = crv_image_packed(accessibility, WIDTH, HEIGHT, 1);
+    const scene_occlusion ao = {
+        .accessibility = crv_const_image_packed(accessibility, WIDTH, HEIGHT, 1)};
     for (int i = 0; i < PIXELS; i++)
         accessibility[i] = (float)i / PIXELS;
     assert_int_equal(scene_shade(s, &g, light, &ao, &image, 0, NULL), 0);
@@ -265,12 +267,37 @@ static void test_refuses_other_sizes(void **state)
     assert_int_equal(scene_shade(p->scene, &p->gbuffer, NULL, NULL, &wide, 0, &log), -1);
     assert_error_line(&m, "picture");
     assert_int_equal(scene_shade(p->scene, &p->gbuffer, NULL, NULL, &grey, 0, NULL), -1);
-    assert_int_equal(scene_shade(p->scene, &p->gbuffer, NULL, &good, &good, 0, NULL), -1);
+    const scene_occlusion wrong[] = {
+        {.accessibility = crv_const_image_packed(rgb, WIDTH, HEIGHT, 2)},
+        {.accessibility = crv_const_image_packed(rgb, WIDTH + 1, HEIGHT, 1)},
+        {.bent_normal = crv_const_image_packed(rgb, WIDTH, HEIGHT, 1)}};
+    for (size_t i = 0; i < 3; i++)
+        assert_int_equal(
+            scene_shade(p->scene, &p->gbuffer, NULL, &wrong[i], &good, 0, NULL), -1);
+}
+
+/* Each colour has its own accessibility; one channel stands for all three. */
+static void test_accessibility_of_colours(void **state)
+{
+    picture *p = *state;
+    static float access[3 * PIXELS], rgb[3 * PIXELS];
+    crv_image image = crv_image_packed(rgb, WIDTH, HEIGHT, 3);
+    const scene_occlusion ao = {.accessibility =
+                                    crv_const_image_packed(access, WIDTH, HEIGHT, 3)};
+    for (int i = 0; i < PIXELS; i++)
+        access[3 * i + 1] = 1.0f;
+    assert_int_equal(scene_shade(p->scene, &p->gbuffer, NULL, &ao, &image, 0, NULL), 0);
+    for (int i = 0; i < PIXELS; i++) {
+        assert_memory_equal(&rgb[3 * i], &p->with_dark[3 * i], sizeof *rgb);
+        assert_memory_equal(&rgb[3 * i + 1], &p->plain[3 * i + 1], sizeof *rgb);
+        assert_memory_equal(&rgb[3 * i + 2], &p->with_dark[3 * i + 2], sizeof *rgb);
+    }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_open_is_as_without),
+                                       cmocka_unit_test(test_accessibility_of_colours),
                                        cmocka_unit_test(test_values_are_sound),
                                        cmocka_unit_test(test_key_light_is_not_darkened),
                                        cmocka_unit_test(test_background_is_sky),

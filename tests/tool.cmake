@@ -5,6 +5,7 @@ set(tool_dir ${PROJECT_SOURCE_DIR}/tools/crevice)
 crevice_test(test_tool_metrics SOURCES test_tool_metrics.c LIBS crevice_common)
 crevice_test(test_tool_metrics_fit SOURCES test_tool_metrics_fit.c LIBS crevice_common)
 crevice_test(test_tool_metrics_flip SOURCES test_tool_metrics_flip.c LIBS crevice_common)
+crevice_test(test_tool_bounces SOURCES test_tool_bounces.c LIBS crevice_common)
 crevice_test(test_tool_metrics_heatmap
     SOURCES test_tool_metrics_heatmap.c LIBS crevice_common)
 crevice_test(test_tool_args

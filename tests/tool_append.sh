@@ -38,6 +38,36 @@ at_most "$(number max_error)" 0 "N.X is not"
 good ao shot.0001.exr --radius 0.4 --apply N.Y --tint 1,1,1 -o white.exr
 good compare --json white.exr shot.0001.exr --channel N.Y
 at_most "$(number max_error)" 0 "a white tint darkens nothing"
+# With the light that surfaces pass on: none in black surroundings, but for the 2e-6 of the
+# equation; more in brighter ones; a colour pass says it pixel by pixel.
+good ao shot.0001.exr --radius 0.4 --apply N.Y --albedo 0 -o black.exr
+good compare --json black.exr applied.exr --channel N.Y
+at_most "$(number max_error)" 3e-6 "black surroundings"
+good ao shot.0001.exr --radius 0.4 --apply N.Y --albedo 0.5,0.5,0.5 -o grey.exr
+good compare --json grey.exr applied.exr --channel N.Y
+at_least "$(number max_error)" 0.01 "grey surroundings"
+good ao shot.0001.exr --radius 0.4 --apply N.Y --albedo 0.5 -o half.exr
+good compare --json grey.exr half.exr --channel N.Y
+at_most "$(number max_error)" 0 "one number for three"
+grep -aq ' albedo=0.5 ' half.exr || fail "metadata of the albedo"
+good ao shot.0001.exr --radius 0.4 --apply N.Y --albedo 1 -o bright.exr
+# Nothing is occluded within this radius: a pass of ones.
+cp shot.0001.exr ones.exr
+for channel in R G B; do
+    good ao ones.exr --radius 1e-7 --intensity 0 --append --channel DiffCol.$channel \
+        -o more.exr
+    mv more.exr ones.exr
+done
+good ao ones.exr --radius 0.4 --apply N.Y --albedo DiffCol -o pass.exr
+good compare --json pass.exr bright.exr --channel N.Y
+at_most "$(number max_error)" 0 "a white colour pass"
+good ao ones.exr --radius 0.4 --apply N.Y --albedo DiffCol.G -o pass.exr
+good compare --json pass.exr bright.exr --channel N.Y
+at_most "$(number max_error)" 0 "one channel for three"
+bad 1 'no colours "DiffColor"' ao ones.exr --radius 0.4 --apply N.Y --albedo DiffColor -o out.exr
+bad 2 '--albedo: is for --apply' ao ones.exr --albedo 0.5 -o out.exr
+bad 2 '--albedo: must lie' ao ones.exr --apply N.Y --albedo 1.5 -o out.exr
+
 bad 1 'N.Q' ao shot.0001.exr --radius 0.4 --apply N.Q -o out.exr
 
 # Wrong together.

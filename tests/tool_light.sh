@@ -120,3 +120,23 @@ good compare --json k1.exr k2.exr --channel R
 at_most "$(number max_error)" 0 "key light and occlusion"
 good compare --json s1.exr s2.exr --channel R
 at_least "$(number mae)" 0.001 "sky light and occlusion"
+
+# With the light that surfaces pass on: none in black surroundings, more in brighter ones;
+# the mesh's own albedo lies between.
+lit() {
+    # shellcheck disable=SC2086
+    good render $scene --sky constant:1,1,1 --key-light none --shade lit -o lit.exr "$@"
+    mean lit
+}
+plain=$(lit)
+black=$(lit --albedo 0)
+mesh=$(lit --albedo mesh)
+white=$(lit --albedo 1)
+near "$black" "$plain" "black surroundings"
+at_least "$mesh" "$(awk -v x="$plain" 'BEGIN { print x * 1.01 }')" "the mesh's albedo"
+at_least "$white" "$(awk -v x="$mesh" 'BEGIN { print x * 1.002 }')" "white surroundings"
+near "$(lit --albedo 0,1,0)" "$plain" "red in green surroundings"
+bad 2 '--albedo: "2" is none' render builtin:corner --shade lit --albedo 2 -o out.exr
+bad 2 '--albedo: "blue" is none' render builtin:corner --shade lit --albedo blue -o out.exr
+bad 2 '--albedo: lights no picture' render builtin:corner --albedo 1 -o out.exr
+bad 2 '--albedo: is for ambient' render builtin:corner --shade lit-no-ao --albedo 1 -o out.exr

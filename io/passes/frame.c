@@ -45,18 +45,6 @@ static int check_request(const char *path, const io_passes_request *request,
     return 0;
 }
 
-static crv_image view_of(const io_image *image, int32_t first, int32_t channels)
-{
-    const ptrdiff_t row = (ptrdiff_t)image->width * (ptrdiff_t)sizeof(float);
-    return (crv_image){.data = image->channels[first].data,
-                       .width = image->width,
-                       .height = image->height,
-                       .channels = channels,
-                       .row_stride = row,
-                       .pixel_stride = sizeof(float),
-                       .channel_stride = row * image->height};
-}
-
 static bool is_our_gbuffer(const io_image *image)
 {
     return !strncmp(image->made, "crevice ", 8) && strstr(image->made, " gbuffer");
@@ -140,9 +128,9 @@ static int settle(const char *path, const io_passes_request *request,
     if (count < 0)
         return -1;
     for (int32_t i = 0; i < names->layers; i++)
-        frame->depth[i] = view_of(&frame->image, i, 1);
+        frame->depth[i] = io_image_view(&frame->image, i, 1);
     if (given_normals) {
-        frame->normals = view_of(&frame->image, io__depth_channels(names), 3);
+        frame->normals = io_image_view(&frame->image, io__depth_channels(names), 3);
         io__decode_normals(path, request, frame, log);
     }
     const crv_depth_format format =

@@ -141,4 +141,7 @@ void args_describe_values(const arg *row, char *out, size_t size);
 /* A whole finite or infinite number, nothing before or after it. */
 bool args_number(const char *text, double *out);
 
+/* "1,2,3": at most max finite numbers. Returns how many there are, or -1. */
+int args_numbers(const char *text, double *out, int max);
+
 #endif

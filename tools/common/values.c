@@ -43,28 +43,37 @@ static bool set_number(const arg *row, const char *text, arg_number *out)
     return true;
 }
 
-static bool set_vector(const char *text, arg_vector *out)
+int args_numbers(const char *text, double *out, int max)
 {
     char copy[128];
     char *part = copy;
+    int count = 0;
     if (strlen(text) >= sizeof copy)
-        return false;
+        return -1;
     memcpy(copy, text, strlen(text) + 1);
-    for (int i = 0; i < 3; i++) {
+    while (part) {
         char *comma = strchr(part, ',');
-        double value;
 
-        if ((!comma) != (i == 2))
-            return false;
         if (comma)
             *comma = '\0';
-        /* Squares of coordinates must stay finite in single precision. */
-        if (!args_number(part, &value) || !(fabs(value) < 1e18))
-            return false;
-        out->value[i] = value;
-        if (comma)
-            part = comma + 1;
+        if (count == max || !args_number(part, &out[count]) || !isfinite(out[count]))
+            return -1;
+        count++;
+        part = comma ? comma + 1 : NULL;
     }
+    return count;
+}
+
+static bool set_vector(const char *text, arg_vector *out)
+{
+    double value[3];
+    if (args_numbers(text, value, 3) != 3)
+        return false;
+    /* Squares of coordinates must stay finite in single precision. */
+    for (int i = 0; i < 3; i++)
+        if (!(fabs(value[i]) < 1e18))
+            return false;
+    memcpy(out->value, value, sizeof value);
     return true;
 }
 

@@ -17,7 +17,7 @@ typedef struct ao_settings {
     arg_int bits;
     bool half, skip_existing, crop;
     bool append, replace;
-    const char *channel, *apply, *views;
+    const char *channel, *apply, *albedo, *views;
     const char *receive, *occlude; /* mattes, as io_matte_read() takes them */
     arg_vector tint;
 } ao_settings;

@@ -98,6 +98,12 @@ static const arg append_rows[] = {
      .help =
          "for --apply: what full occlusion leaves of a white surface, 0 to 1; colours "
          "become c (t + (1 - t) AO)"},
+    {.name = "--albedo",
+     .value = "ALBEDO",
+     ARG_INTO(ARG_TEXT, ao_settings, albedo),
+     .help = "for --apply: AO with the light that surfaces pass on to each other: their "
+             "albedo RHO or R,G,B, 0 to 1, or a colour pass such as \"View "
+             "Layer.DiffCol\""},
 };
 static const arg mask_rows[] = {
     {.name = "--receive",

@@ -190,36 +190,47 @@ static int write_image(const render_settings *s, const char *path, const io_imag
 typedef struct stage {
     const scene *model;
     const scene_gbuffer *buffers;
-    const scene_lighting *light;
+    const lighting *light;
 } stage;
+
+/* bounced: to be freed by the caller. */
+static int occlude(const stage *lit, const io_image *ao, io_image *bounced,
+                   scene_occlusion *out, report *r)
+{
+    *out = (scene_occlusion){.accessibility = crv_image_const(io_image_view(ao, 0, 1))};
+    if (!lit->light->bounces)
+        return EXIT_DONE;
+    const int result = lighting_bounce(lit->light, lit->buffers, ao, bounced, r);
+    if (result == EXIT_DONE)
+        out->accessibility = crv_image_const(io_image_view(bounced, 0, 3));
+    return result;
+}
 
 /* ao NULL: without ambient occlusion. */
 static int write_lit(const render_settings *s, const char *path, const stage *lit,
                      const io_image *ao, report *r)
 {
     static const char *const names[] = {"R", "G", "B"};
-    int32_t width = s->view.size.width, height = s->view.size.height;
-    size_t count = (size_t)width * (size_t)height;
-    float *pixels = malloc(count * 3 * sizeof *pixels);
-    crv_image rgb = crv_image_packed(pixels, width, height, 3);
-    crv_image access = {0};
-    io_image image = {0};
-    int result = EXIT_FAILED;
-    if (!pixels)
-        return report_no_memory(r);
-    if (ao)
-        access = crv_image_packed(ao->channels[0].data, width, height, 1);
-    if (scene_shade(lit->model, lit->buffers, lit->light, ao ? &access : NULL, &rgb,
-                    s->view.common.threads.value, &r->logger)
-            == 0
-        && io_image_init(&image, width, height, names, 3, &r->logger) == 0) {
-        for (size_t i = 0; i < count; i++)
-            for (size_t c = 0; c < 3; c++)
-                image.channels[c].data[i] = pixels[i * 3 + c];
-        result = write_image(s, path, &image, true, r);
+    io_image image = {0}, bounced = {0};
+    scene_occlusion occlusion;
+    int result = ao ? occlude(lit, ao, &bounced, &occlusion, r) : EXIT_DONE;
+    if (result == EXIT_DONE
+        && io_image_init(&image, s->view.size.width, s->view.size.height, names, 3,
+                         &r->logger)
+               != 0)
+        result = EXIT_FAILED;
+    if (result == EXIT_DONE) {
+        const crv_image rgb = io_image_view(&image, 0, 3);
+        if (scene_shade(lit->model, lit->buffers, &lit->light->scene,
+                        ao ? &occlusion : NULL, &rgb, s->view.common.threads.value,
+                        &r->logger)
+            != 0)
+            result = EXIT_FAILED;
     }
+    if (result == EXIT_DONE)
+        result = write_image(s, path, &image, true, r);
     io_image_free(&image);
-    free(pixels);
+    io_image_free(&bounced);
     return result;
 }
 
@@ -293,7 +304,7 @@ static int run(const void *settings, report *r)
         result = estimate(s, w.model, &w.buffers, &w.map, &w.ao, r);
     if (result == EXIT_DONE) {
         relief_bend_normals(s, &w.map, &w.buffers);
-        lit = (stage){w.model, &w.buffers, &w.light.scene};
+        lit = (stage){w.model, &w.buffers, &w.light};
         result = write_all(s, &lit, &w.ao, r);
     }
     free_work(&w);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/multi_bounce.h"
 #include "common/output.h"
 #include "passes/views.h"
 #include "views.h"
@@ -36,6 +37,13 @@ const char *append_mistake(const ao_settings *s)
         return "--replace: is for --append; add that";
     if (s->tint.given && !s->apply)
         return "--tint: is for --apply; add that";
+    double albedo[3];
+    if (s->albedo && !s->apply)
+        return "--albedo: is for --apply; add that";
+    if (s->albedo && multi_bounce_parse(s->albedo, albedo)
+        && !multi_bounce_is_albedo(albedo))
+        return "--albedo: must lie between 0 (black) and 1; give RHO, R,G,B or the name "
+               "of a colour pass";
     for (int i = 0; s->tint.given && i < 3; i++)
         if (!(s->tint.value[i] >= 0.0 && s->tint.value[i] <= 1.0))
             return "--tint: must lie between 0 (black) and 1; give R,G,B";
@@ -92,15 +100,95 @@ static bool add_channels(multiplied *m, const io_image *probed, const char *name
     return found ? room : add(m, name);
 }
 
+/* The red, green and blue of --albedo's layer, or its one channel for all of them; none
+ * if it is a number. Names point into the probed image. */
+static int find_albedo(const ao_settings *s, const char *input, const io_image *probed,
+                       const char *view, const char *names[3], report *r)
+{
+    static const char letters[] = "RGBrgb";
+    double constant[3];
+    names[0] = names[1] = names[2] = NULL;
+    if (!s->albedo || multi_bounce_parse(s->albedo, constant))
+        return EXIT_DONE;
+    for (int32_t i = 0; i < probed->channel_count; i++) {
+        const char *name = probed->channels[i].name;
+        bool is_colour;
+        if (!is_meant(&probed->channels[i], s->albedo, view, &is_colour))
+            continue;
+        const size_t letter = strcspn(letters, name + strlen(name) - 1);
+        for (size_t k = 0; k < 3; k++)
+            if (!is_colour || letter % 3 == k)
+                names[k] = name;
+    }
+    if (names[0] && names[1] && names[2])
+        return EXIT_DONE;
+    report_error(r,
+                 "%s: has no colours \"%s\" for --albedo; name a layer of red, green and "
+                 "blue, or give a number",
+                 input, s->albedo);
+    return EXIT_FAILED;
+}
+
+/* The albedo of the result's pixels; 0 where the pass does not cover them. */
+static int fill_albedo(const ao_settings *s, const char *input, const char *view,
+                       io_image *out, report *r)
+{
+    const size_t count = (size_t)out->width * (size_t)out->height;
+    const char *names[3];
+    double constant[3];
+    io_image probed = {0}, pass = {0};
+    if (multi_bounce_parse(s->albedo, constant)) {
+        for (int k = 0; k < 3; k++)
+            for (size_t i = 0; i < count; i++)
+                out->channels[k].data[i] = (float)constant[k];
+        return EXIT_DONE;
+    }
+    if (io_probe(input, &probed, &r->logger) != 0)
+        return EXIT_FAILED;
+    int code = find_albedo(s, input, &probed, view, names, r);
+    if (code == EXIT_DONE
+        && io_read(input, names, names[0] == names[1] ? 1 : 3, &pass, &r->logger) != 0)
+        code = EXIT_FAILED;
+    for (int k = 0; k < 3 && code == EXIT_DONE; k++)
+        io_copy_window(&pass, io_image_find(&pass, names[k])->data, out,
+                       out->channels[k].data);
+    io_image_free(&pass);
+    io_image_free(&probed);
+    return code;
+}
+
+/* What the result's colours are multiplied by with --albedo; the caller frees it. */
+static int make_factors(const ao_settings *s, const char *input, const ao_result *result,
+                        const char *view, io_image *out, report *r)
+{
+    static const char *const colours[] = {"R", "G", "B"};
+    const io_image *ao = &result->ao;
+    const size_t count = (size_t)ao->width * (size_t)ao->height;
+    if (io_image_init(out, ao->width, ao->height, colours, 3, &r->logger) != 0)
+        return EXIT_FAILED;
+    out->data_x = ao->data_x;
+    out->data_y = ao->data_y;
+    const int code = fill_albedo(s, input, view, out, r);
+    for (int k = 0; k < 3 && code == EXIT_DONE; k++)
+        multi_bounce_plane(ao->channels[0].data, out->channels[k].data, count,
+                           out->channels[k].data);
+    return code;
+}
+
 static int find_multiplied(const ao_settings *s, const char *input, const char *view,
                            multiplied *m, report *r)
 {
+    const char *albedo[3];
     io_image probed = {0};
     m->count = 0;
     if (!s->apply)
         return EXIT_DONE;
     if (io_probe(input, &probed, &r->logger) != 0)
         return EXIT_FAILED;
+    if (find_albedo(s, input, &probed, view, albedo, r) != EXIT_DONE) {
+        io_image_free(&probed);
+        return EXIT_FAILED;
+    }
     bool room = true;
     for (const char *at = s->apply; room && at; at = strchr(at, ',')) {
         char name[IO_NAME_SIZE];
@@ -124,6 +212,12 @@ static io_append_options options_of(const ao_settings *s)
                                         (float)s->tint.value[2]}};
 }
 
+/* The view that names of channels of a file of several views hold; else "". */
+static const char *view_in_file(const ao_result *results, int32_t count, int32_t i)
+{
+    return count > 1 ? results[i].view : "";
+}
+
 /* Fills an addition for each result. The caller frees *names. */
 static int make_additions(const ao_settings *s, const char *input,
                           const ao_result *results, int32_t count,
@@ -132,7 +226,7 @@ static int make_additions(const ao_settings *s, const char *input,
     multiplied *m = calloc((size_t)count, sizeof *m);
     int result = m ? EXIT_DONE : report_no_memory(r);
     for (int32_t i = 0; i < count && result == EXIT_DONE; i++) {
-        result = find_multiplied(s, input, count > 1 ? results[i].view : "", &m[i], r);
+        result = find_multiplied(s, input, view_in_file(results, count, i), &m[i], r);
         additions[i] = (io_addition){.beside = results[i].frame.image.channels[0].name,
                                      .name = results[i].channel,
                                      .is_added = s->append,
@@ -172,14 +266,22 @@ int append_write(const ao_settings *s, const char *input, const char *output,
 {
     multiplied *names = NULL;
     io_addition additions[MAX_VIEWS];
+    io_image factors[MAX_VIEWS] = {{0}};
     int result = make_additions(s, input, results, count, additions, &names, r);
     const io_append_options options = options_of(s);
     for (int32_t i = 0; i < count && result == EXIT_DONE; i++) {
         additions[i].picture = &results[i].ao;
         additions[i].made = results[i].ao.made;
+        if (s->albedo) {
+            result = make_factors(s, input, &results[i], view_in_file(results, count, i),
+                                  &factors[i], r);
+            additions[i].factors = &factors[i];
+        }
     }
     if (result == EXIT_DONE)
         result = output_append(input, output, additions, count, &options, r);
+    for (int32_t i = 0; i < count; i++)
+        io_image_free(&factors[i]);
     free(names);
     return result;
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "render.h"
+#include "common/multi_bounce.h"
 #include "common/nearest.h"
 
 static const double degree = 3.14159265358979323846 / 180.0;
@@ -28,30 +29,13 @@ static const arg lighting_rows[] = {
      ARG_INTO(ARG_VECTOR, render_settings, zenith),
      .help =
          "the direction from which the sky's top shines; it turns the key light, too"},
+    {.name = "--albedo",
+     .value = "ALBEDO",
+     ARG_INTO(ARG_TEXT, render_settings, albedo),
+     .help = "accessibility with the light that surfaces pass on to each other: their "
+             "albedo RHO or R,G,B, 0 to 1, or mesh for that of each surface"},
 };
 const arg_table lighting_table = ARG_TABLE("Light of the lit pictures", lighting_rows);
-
-/* "1,2,3" to at most max numbers in [low, high]: how many there are, or -1. */
-static int numbers(const char *text, double *out, int max)
-{
-    char copy[128];
-    char *part = copy;
-    int count = 0;
-    if (strlen(text) >= sizeof copy)
-        return -1;
-    memcpy(copy, text, strlen(text) + 1);
-    while (part) {
-        char *comma = strchr(part, ',');
-
-        if (comma)
-            *comma = '\0';
-        if (count == max || !args_number(part, &out[count]) || !isfinite(out[count]))
-            return -1;
-        count++;
-        part = comma ? comma + 1 : NULL;
-    }
-    return count;
-}
 
 static int set_key_light(const char *text, scene_lighting *l, report *r)
 {
@@ -60,7 +44,7 @@ static int set_key_light(const char *text, scene_lighting *l, report *r)
         memset(l->key_colour, 0, sizeof l->key_colour);
         return EXIT_DONE;
     }
-    const int count = numbers(text, value, 3);
+    const int count = args_numbers(text, value, 3);
     if (count < 2 || fabs(value[0]) > 360.0 || fabs(value[1]) > 90.0 || value[2] < 0.0
         || value[2] > 1e6) {
         report_error(r,
@@ -85,7 +69,7 @@ static int set_constant(const char *text, scene_lighting *l, report *r)
     l->sky = SCENE_SKY_CONSTANT;
     if (text[0] == '\0')
         return EXIT_DONE;
-    if (text[0] != ':' || numbers(text + 1, value, 3) != 3
+    if (text[0] != ':' || args_numbers(text + 1, value, 3) != 3
         || !(fmin(value[0], fmin(value[1], value[2])) >= 0.0)
         || !(fmax(value[0], fmax(value[1], value[2])) <= 1e6)) {
         report_error(r,
@@ -130,6 +114,18 @@ static bool is_picture(const char *text)
     return length > 4
            && (strcmp(text + length - 4, ".exr") == 0
                || strcmp(text + length - 4, ".pfm") == 0);
+}
+
+static int set_albedo(const char *text, lighting *l, report *r)
+{
+    l->bounces = true;
+    l->of_mesh = strcmp(text, "mesh") == 0;
+    if (l->of_mesh
+        || (multi_bounce_parse(text, l->albedo) && multi_bounce_is_albedo(l->albedo)))
+        return EXIT_DONE;
+    report_error(
+        r, "--albedo: \"%s\" is none; give RHO or R,G,B with 0 to 1 each, or mesh", text);
+    return EXIT_USAGE;
 }
 
 static int set_sky(const char *text, lighting *l, report *r)
@@ -184,9 +180,15 @@ int lighting_check(const render_settings *s, report *r)
     const char *given = s->sky            ? "--sky"
                         : s->key_light    ? "--key-light"
                         : s->zenith.given ? "--zenith"
+                        : s->albedo       ? "--albedo"
                                           : NULL;
     if (given && s->shade.value == SHADE_AO && !s->lit && !s->unlit) {
         report_error(r, "%s: lights no picture; add --lit FILE or --shade lit", given);
+        return EXIT_USAGE;
+    }
+    if (s->albedo && s->shade.value != SHADE_LIT && !s->lit) {
+        report_error(r, "--albedo: is for ambient occlusion; add --lit FILE or --shade "
+                        "lit");
         return EXIT_USAGE;
     }
     if (s->zenith.given && !(fabs(zenith[0]) + fabs(zenith[1]) + fabs(zenith[2]) > 0.0)) {
@@ -206,9 +208,32 @@ int lighting_load(const render_settings *s, lighting *out, report *r)
     turn(&out->scene, s->zenith.given    ? s->zenith.value
                       : s->view.up.given ? s->view.up.value
                                          : usual);
+    if (result == EXIT_DONE && s->albedo)
+        result = set_albedo(s->albedo, out, r);
     if (result == EXIT_DONE && s->sky)
         result = set_sky(s->sky, out, r);
     return result;
+}
+
+int lighting_bounce(const lighting *l, const scene_gbuffer *g, const io_image *ao,
+                    io_image *out, report *r)
+{
+    static const char *const colours[] = {"R", "G", "B"};
+    const size_t count = (size_t)ao->width * (size_t)ao->height;
+    if (io_image_init(out, ao->width, ao->height, colours, 3, &r->logger) != 0)
+        return EXIT_FAILED;
+    for (int32_t y = 0; y < ao->height; y++)
+        for (int32_t x = 0; x < ao->width; x++) {
+            const size_t pixel = (size_t)(y + g->desc.guard_top) * (size_t)g->desc.width
+                                 + (size_t)(x + g->desc.guard_left);
+            for (size_t c = 0; c < 3; c++)
+                out->channels[c].data[(size_t)y * (size_t)ao->width + (size_t)x] =
+                    l->of_mesh ? g->albedo[3 * pixel + c] : (float)l->albedo[c];
+        }
+    for (int c = 0; c < 3; c++)
+        multi_bounce_plane(ao->channels[0].data, out->channels[c].data, count,
+                           out->channels[c].data);
+    return EXIT_DONE;
 }
 
 void lighting_free(lighting *l)

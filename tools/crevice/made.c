@@ -75,6 +75,8 @@ void made_describe(const ao_settings *s, const crv_options *o, float vfov_rad,
         append(made, " append=%d channel=%s apply=%s tint=%.9g,%.9g,%.9g", s->append,
                append_channel(s), s->apply ? s->apply : "", s->tint.value[0],
                s->tint.value[1], s->tint.value[2]);
+    if (s->albedo)
+        append(made, " albedo=%s", s->albedo);
 }
 
 /* It stands last. */

@@ -18,7 +18,7 @@ typedef struct render_settings {
     const char *height_map;
     arg_number height_scale;
     arg_int height_wrap;
-    const char *sky, *key_light;
+    const char *sky, *key_light, *albedo;
     arg_vector zenith;
 } render_settings;
 
@@ -48,12 +48,20 @@ extern const arg_table lighting_table;
 typedef struct lighting {
     scene_lighting scene;
     float *picture; /* the environment's; owned */
+    bool bounces;   /* between surfaces, as --albedo wants it: of this albedo, */
+    bool of_mesh;   /* or of that of each surface */
+    double albedo[3];
 } lighting;
 
 int lighting_check(const render_settings *s, report *r);
 
 /* What the settings say, the sky's picture included. Free it, also after an error. */
 int lighting_load(const render_settings *s, lighting *out, report *r);
+
+/* Accessibility of red, green and blue light after all bounces; ao: its first channel is
+ * that of the first. The caller frees *out. */
+int lighting_bounce(const lighting *l, const scene_gbuffer *g, const io_image *ao,
+                    io_image *out, report *r);
 void lighting_free(lighting *l);
 
 #endif

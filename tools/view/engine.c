@@ -254,7 +254,8 @@ static bool make_light(engine *e)
     e->light = malloc(3 * count * sizeof *e->light);
     bool done = closed && e->dark && e->light;
     if (done) {
-        const crv_image none = crv_image_packed(closed, width, height, 1);
+        const scene_occlusion none = {
+            .accessibility = crv_const_image_packed(closed, width, height, 1)};
         const crv_image dark = crv_image_packed(e->dark, width, height, 3);
         const crv_image light = crv_image_packed(e->light, width, height, 3);
         done = scene_shade(e->source->model, &e->buffers->g, NULL, &none, &dark, threads,
