@@ -69,6 +69,19 @@ if(Vulkan_FOUND)
         set_tests_properties(${test} PROPERTIES
             LABELS vulkan TIMEOUT 600 SKIP_RETURN_CODE 77)
     endforeach()
+    # The least device that may be listed for portability, by a loader that stands in for the
+    # real one.
+    if(UNIX AND NOT APPLE)
+        add_library(vulkan_portable SHARED vulkan_portable.c)
+        target_compile_definitions(vulkan_portable PRIVATE "REAL_LOADER=\"${Vulkan_LIBRARY}\"")
+        target_link_libraries(vulkan_portable PRIVATE Vulkan::Headers crevice_flags ${CMAKE_DL_LIBS})
+        set_target_properties(vulkan_portable PROPERTIES OUTPUT_NAME vulkan SOVERSION 1
+            LIBRARY_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/portable)
+        add_test(NAME vulkan_portable COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/on_portable.sh
+            ${CMAKE_CURRENT_BINARY_DIR}/portable $<TARGET_FILE:test_vulkan_agreement>)
+        set_tests_properties(vulkan_portable PROPERTIES
+            LABELS "vulkan;once" TIMEOUT 300 SKIP_RETURN_CODE 77)
+    endif()
     # Views, sizes, layers, options and noise that change each frame.
     foreach(name frames views)
         vulkan_validated(${name}
