@@ -64,60 +64,8 @@ ln -s new.png link.png
 bad 2 'two pictures' render $tiny -o new.png --lit link.png
 rm link.png
 
-# Work that takes longer than ten seconds says how long beforehand and ends at a signal
-# within a second; with no terminal, one thread, and a slow instruction set. A busy machine
-# stretches that second, so what counts is the processor's time that the tool takes after
-# the signal: it waits for nothing but the disk. Sanitizers slow it down.
-most=1
-[ -z "${TSAN_OPTIONS:-}${ASAN_OPTIONS:-}" ] || most=8
-
-# Processor's time of a running process, in seconds.
-time_of() {
-    awk -v ticks="$(getconf CLK_TCK)" '{ print ($14 + $15) / ticks }' "/proc/$1/stat"
-}
-
-# The same of all that has ended before the last `times >FILE`.
-time_in() {
-    tr 'ms' '  ' <"$1" | awk 'NR == 2 { print $1 * 60 + $2 + $3 * 60 + $4 }'
-}
-
-# ends_now SIGNAL LEFT: the tool in $process ends; LEFT is what may be left.
-ends_now() {
-    taken=0
-    times >before.txt
-    if [ -r "/proc/$process/stat" ]; then
-        taken=$(time_of $process)
-    fi
-    kill -"$1" $process || fail "it was done before a signal"
-    code=0
-    wait $process || code=$?
-    times >after.txt
-    [ $code -gt 128 ] || fail "exit code $code after a signal"
-    if [ -r /proc/self/stat ]; then
-        awk -v before="$(time_in before.txt)" -v after="$(time_in after.txt)" \
-            -v taken="$taken" -v most=$most \
-            'BEGIN { exit !(after - before - taken < most) }' ||
-            fail "works on after a signal: $(cat before.txt after.txt), $taken before it"
-    fi
-    found=$(find . -name 'long*' -o -name '.?*')
-    [ "$found" = "$2" ] || fail "left after a signal: $found"
-}
-
-# ends_soon LINE LEFT WORDS...: LINE is told of it.
-ends_soon() {
-    line=$1
-    left=$2
-    shift 2
-    "$tool" "$@" >stdout.txt 2>stderr.txt &
-    process=$!
-    tries=0
-    while ! grep -q "$line" stderr.txt && [ $tries -lt 600 ]; do
-        sleep 0.1
-        tries=$((tries + 1))
-    done
-    grep -q "$line" stderr.txt || fail "nothing is told of long work: $(cat stderr.txt)"
-    ends_now TERM "$left"
-}
+# Work that takes longer than ten seconds says how long beforehand and ends at a signal; with
+# no terminal, one thread, and a slow instruction set.
 out="--threads 1 -o long.exr"
 # shellcheck disable=SC2086 # words
 ends_soon '^estimation:  *[0-9.]* %, [0-9].* left$' '' render builtin:courtyard $out \

@@ -31,6 +31,10 @@ set_tests_properties(test_vulkan_agreement PROPERTIES
 set_tests_properties(vulkan_half_deinterleaved ${crevice_vulkan_tests} PROPERTIES
     LABELS "vulkan;once;long" TIMEOUT 600 SKIP_RETURN_CODE 77)
 
+# Runs of several submissions.
+crevice_test(test_vulkan_long SOURCES test_vulkan_long.c LIBS crevice_fixture)
+set_tests_properties(test_vulkan_long PROPERTIES LABELS vulkan SKIP_RETURN_CODE 77)
+
 # vulkan_validated(NAME FEATURES PROGRAM...): under the validation layer.
 function(vulkan_validated name features)
     add_test(NAME vulkan_validation_${name} COMMAND sh

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * base.h: version, status codes, and the three hooks through which the host keeps
- * control: where messages go, where memory comes from, who runs the parallel loops.
+ * base.h: version, status codes, and the hooks through which the host keeps control:
+ * where messages go, where memory comes from, who runs the parallel loops, and how far
+ * long runs are.
  *
  * Structs that may grow begin with struct_size. Fill one with its _init function, which
  * takes sizeof of it, and change what differs. New members are added at the end. A
@@ -79,7 +80,8 @@ typedef enum crv_status {
     CRV_ERROR_UNSUPPORTED = 3, /* valid, but not by this build, method or device */
     /* called too early: the G-buffer has no camera or no depth, nothing was timed yet */
     CRV_ERROR_NOT_READY = 4,
-    CRV_ERROR_DEVICE = 5 /* the device was lost, or a call to its driver failed */
+    CRV_ERROR_DEVICE = 5, /* the device was lost, or a call to its driver failed */
+    CRV_ERROR_STOPPED = 6 /* the host's crv_progress ended the run; not logged */
 } crv_status;
 
 /* A short English name of a status ("out of memory"). Static storage; never NULL, also
@@ -121,6 +123,15 @@ typedef struct crv_parallel {
                 void *data);
     void *user; /* handed to run; not owned */
 } crv_parallel;
+
+/* How far a long run on a Vulkan device is. On the CPU crv_parallel sees every piece. */
+typedef struct crv_progress {
+    /* Called between the pieces of a run that takes more than one submission to its
+     * queue, on the thread that runs the plan: `done` of `total` pieces, done < total. 0
+     * goes on. All else ends the run with CRV_ERROR_STOPPED; the plan may run again. */
+    int32_t (*fn)(void *user, int32_t done, int32_t total);
+    void *user; /* handed to fn; not owned */
+} crv_progress;
 
 #ifdef __cplusplus
 }

@@ -25,6 +25,8 @@ const char *crv_status_string(crv_status status)
         return "not ready";
     case CRV_ERROR_DEVICE:
         return "device failure";
+    case CRV_ERROR_STOPPED:
+        return "stopped";
     }
     return "unknown status";
 }

@@ -82,6 +82,7 @@ crv_status crv__context_create_bare(const crv_context_desc *desc, crv_context **
     *context = (crv_context){.logger = desc->logger,
                              .allocator = allocator,
                              .parallel = desc->parallel,
+                             .progress = desc->progress,
                              .threads = desc->threads,
                              .isa_mask = desc->isa_mask ? desc->isa_mask : UINT32_MAX,
                              .exact = desc->exact,

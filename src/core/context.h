@@ -13,6 +13,7 @@ struct crv_context {
     crv_logger logger;
     crv_allocator allocator;
     crv_parallel parallel;
+    crv_progress progress;
     int32_t threads;
     uint32_t isa_mask; /* never 0 */
     int32_t exact;     /* 0 or 1 */

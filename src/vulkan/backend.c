@@ -122,6 +122,21 @@ static void pack(const crv__work *work, const plan_state *state,
         pack_plane(estimate, staged(state, state->staging.accessibility));
 }
 
+/* crv__job.submit */
+static crv_status submit(const void *user, int32_t done, int32_t total)
+{
+    const crv__work *work = user;
+    plan_state *state = work->state;
+    const crv__device *d = state->pass.device;
+    const crv_progress *progress = &work->setup->context->progress;
+    const crv_status status = crv__commands_run(&state->commands, d);
+    if (status)
+        return status;
+    if (progress->fn && progress->fn(progress->user, done, total))
+        return CRV_ERROR_STOPPED;
+    return crv__commands_begin(&state->commands, d);
+}
+
 static crv_status run(const crv__work *work, int filter_only, const crv__plane planes[2],
                       const crv__plane **out)
 {
@@ -130,6 +145,8 @@ static crv_status run(const crv__work *work, int filter_only, const crv__plane p
     crv__slot *slot = &state->pass.slots[0];
     const crv__job job = {.setup = work->setup,
                           .staging = &state->staging,
+                          .submit = submit,
+                          .user = work,
                           .filter_only = filter_only != 0};
     if (work->frame->params->use_field)
         return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
@@ -140,8 +157,9 @@ static crv_status run(const crv__work *work, int filter_only, const crv__plane p
     crv_status status = crv__commands_begin(&state->commands, d);
     if (status)
         return status;
-    crv__record(slot, state->commands.buffer, &job);
-    status = crv__commands_run(&state->commands, d);
+    status = crv__record(slot, state->commands.buffer, &job);
+    if (status == CRV_OK)
+        status = crv__commands_run(&state->commands, d);
     if (status)
         return status;
     *out = &planes[state->pass.program.passes % 2];

@@ -13,6 +13,15 @@
  */
 enum { PART_ROUNDS = 4096, LAVAPIPE_ROUNDS = 65535 };
 
+/*
+ * Rounds of a plan's submission, at most. Between submissions a host is told how far a
+ * run is, and a process that is killed waits for no more than one of them. The first is
+ * for devices that are CPUs: a sixth of a second with hbao on two cores. A device that
+ * fetches 10^10 texels a second takes a fifth of a second for the second.
+ */
+static const int64_t SOFTWARE_ROUNDS = (int64_t)1 << 26,
+                     SUBMISSION_ROUNDS = (int64_t)1 << 31;
+
 static bool has_option(const crv__setup *setup, const char *key)
 {
     return crv_option_applies(crv_option_find(key), &setup->method->info, NULL);
@@ -178,6 +187,11 @@ crv_status crv__program_create(crv__program *p, const crv__device *device,
                         .desc = *desc,
                         .parts = (unit_count(setup) + size - 1) / size,
                         .part_size = size,
+                        .part_rounds = size * unit_rounds(setup),
+                        .submission_rounds =
+                            device->properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU
+                                ? SOFTWARE_ROUNDS
+                                : SUBMISSION_ROUNDS,
                         .passes = setup->filter ? setup->filter->passes : 0};
     return take_pipelines(p, setup);
 }

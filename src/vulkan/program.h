@@ -34,9 +34,12 @@ typedef struct crv__program {
     crv__pipeline map;                     /* only if the setup has one */
     crv__pipeline estimate, filter[CRV__MOST_PASSES];
     crv__program_desc desc;
-    int32_t parts;     /* dispatches of the estimate */
-    int32_t part_size; /* directions or points in each */
-    int32_t passes;    /* of the filter */
+    int32_t parts;       /* dispatches of the estimate */
+    int32_t part_size;   /* directions or points in each */
+    int32_t part_rounds; /* of loops for a pixel in each, at most */
+    /* Of loops, between which a plan waits for the device: a small part of a second. */
+    int64_t submission_rounds;
+    int32_t passes; /* of the filter */
 } crv__program;
 
 /* UNSUPPORTED with a line if the device cannot compute it. */

@@ -10,6 +10,7 @@ typedef struct recorder {
     VkCommandBuffer commands;
     const crv__job *job;
     crv__push push;
+    int64_t rounds;          /* of loops, at most, since the last submission */
     crv__rectangle whole;    /* the buffers */
     crv__rectangle estimate; /* the accessibility images */
     crv__rectangle result;   /* what the host's result gets */
@@ -262,26 +263,78 @@ static void set_accessibility_output(recorder *r, bool is_last, VkDescriptorSet 
     set_output(r, r->result, f->result_x, f->result_y);
 }
 
-/* In as many dispatches as the program says. */
-static void record_estimate(recorder *r)
+/* Leaves of the output the rows of a band, `from` to before `to`. */
+static void set_band(recorder *r, int32_t from, int32_t to)
+{
+    const int32_t height = r->push.out_height;
+    r->push.out_y += from;
+    r->push.out_height = (to < height ? to : height) - from;
+}
+
+/* A part of a band. Sums begin at the corner of their image, whatever the band. */
+static void record_part(recorder *r, int32_t part, int32_t from, int32_t to)
 {
     const crv__program *p = r->program;
-    const bool is_last = p->passes == 0;
-    begin_step(r, r->job->setup->method->info.name);
-    for (int32_t i = 0; i < p->parts; i++) {
-        const bool ends = i + 1 == p->parts;
-        r->push.part_begin = i * p->part_size;
-        r->push.part_end = r->push.part_begin + p->part_size;
-        r->push.is_last_part = ends;
-        if (i > 0)
-            wait_between(r);
-        set_accessibility_output(r, is_last, r->slot->estimate_set);
-        if (!ends) /* the sums, from the corner of their image on */
-            set_output(r, is_last && r->job->frame ? r->result : r->estimate, 0, 0);
-        dispatch(r, &p->estimate,
-                 ends ? r->slot->estimate_set : r->slot->part_set[i % 2]);
+    const bool is_last = p->passes == 0, ends = part + 1 == p->parts;
+    r->push.part_begin = part * p->part_size;
+    r->push.part_end = r->push.part_begin + p->part_size;
+    r->push.is_last_part = ends;
+    set_accessibility_output(r, is_last, r->slot->estimate_set);
+    set_band(r, from, to);
+    if (!ends) {
+        r->push.store_x = -r->push.out_x;
+        r->push.store_y = -r->push.out_y;
     }
-    end_step(r);
+    dispatch(r, &p->estimate, ends ? r->slot->estimate_set : r->slot->part_set[part % 2]);
+}
+
+/* Between two pieces: waits, and submits if the next one would be too much at once. */
+static crv_status end_piece(recorder *r, int64_t rounds, int32_t done, int32_t total)
+{
+    r->rounds += rounds;
+    if (r->job->submit && r->rounds + rounds > r->program->submission_rounds) {
+        end_label(r); /* a command buffer ends those that it begins */
+        end_label(r);
+        const crv_status status = r->job->submit(r->job->user, done, total);
+        if (status)
+            return status;
+        r->rounds = 0;
+        begin_label(r, "crevice");
+        begin_label(r, r->job->setup->method->info.name);
+    }
+    wait_between(r);
+    return CRV_OK;
+}
+
+/* Rows that are computed at once: all, unless that is too much for a submission. */
+static int32_t band_height(const recorder *r)
+{
+    const crv__pipeline *estimate = &r->program->estimate;
+    const int32_t least = estimate->group * estimate->pixel_stride;
+    const int64_t row_rounds = (int64_t)r->estimate.width * r->program->part_rounds;
+    const int64_t rows = r->program->submission_rounds / row_rounds / least * least;
+    if (!r->job->submit || rows >= r->estimate.height)
+        return r->estimate.height;
+    return rows > least ? (int32_t)rows : least;
+}
+
+/* In as many dispatches as the program says; of a plan, band by band. */
+static crv_status record_estimate(recorder *r)
+{
+    const int32_t height = band_height(r), parts = r->program->parts;
+    const int32_t bands = (r->estimate.height + height - 1) / height;
+    const int64_t rounds = (int64_t)r->estimate.width * height * r->program->part_rounds;
+    crv_status status = CRV_OK;
+    begin_step(r, r->job->setup->method->info.name);
+    for (int32_t i = 0; status == CRV_OK && i < bands * parts; i++) {
+        if (i > 0)
+            status = end_piece(r, rounds, i, bands * parts);
+        if (status == CRV_OK)
+            record_part(r, i % parts, i / parts * height, (i / parts + 1) * height);
+    }
+    if (status == CRV_OK)
+        end_step(r);
+    return status;
 }
 
 static void record_filter(recorder *r)
@@ -312,7 +365,7 @@ static void begin(recorder *r)
                                      s->queries, 0);
 }
 
-void crv__record(crv__slot *slot, VkCommandBuffer commands, const crv__job *job)
+crv_status crv__record(crv__slot *slot, VkCommandBuffer commands, const crv__job *job)
 {
     const crv_gbuffer_desc *g = &job->setup->desc;
     recorder r = {.slot = slot,
@@ -340,7 +393,9 @@ void crv__record(crv__slot *slot, VkCommandBuffer commands, const crv__job *job)
         record_deinterleave(&r);
         record_levels(&r);
         record_map(&r);
-        record_estimate(&r);
+        const crv_status status = record_estimate(&r);
+        if (status)
+            return status;
     }
     record_filter(&r);
     if (job->frame)
@@ -348,4 +403,5 @@ void crv__record(crv__slot *slot, VkCommandBuffer commands, const crv__job *job)
     else
         record_download(&r);
     end_label(&r);
+    return CRV_OK;
 }

@@ -21,10 +21,15 @@ typedef struct crv__job {
     const crv__staging *staging;   /* NULL: frame */
     bool has_normals;              /* of the frame */
     bool filter_only;              /* of staging: its accessibility is the estimate */
-    crv__push push;                /* encodings of the frame */
+    /* Of staging: submits what is recorded, waits, and begins again, when `done` of
+     * `total` pieces of the estimate are recorded. What fails ends the recording. */
+    crv_status (*submit)(const void *user, int32_t done, int32_t total);
+    const void *user;
+    crv__push push; /* encodings of the frame */
 } crv__job;
 
-/* Records the job with the numbers that crv__slot_fill() left in the slot. */
-void crv__record(crv__slot *slot, VkCommandBuffer commands, const crv__job *job);
+/* Records the job with the numbers that crv__slot_fill() left in the slot. With a frame
+ * it never fails. */
+crv_status crv__record(crv__slot *slot, VkCommandBuffer commands, const crv__job *job);
 
 #endif

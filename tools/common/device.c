@@ -8,8 +8,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "progress.h"
-
 static const arg device_rows[] = {
     {.name = "--device",
      .value = "DEVICE",
@@ -124,12 +122,13 @@ static int make_context(const common_settings *common, crv_context_desc *desc, r
                : EXIT_FAILED;
 }
 
-int device_context(const common_settings *common, const crv_logger *logger, report *r,
+int device_context(const common_settings *common, report *r, progress *run,
                    crv_context **out)
 {
     crv_context_desc desc;
     crv_context_desc_init(&desc, sizeof desc);
-    desc.logger = *logger;
+    desc.logger = r->logger;
+    desc.progress = progress_runs(run);
     desc.parallel = progress_loops(r, common->threads.value);
     return make_context(common, &desc, r, out);
 }

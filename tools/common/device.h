@@ -4,13 +4,16 @@
 #define TOOL_DEVICE_H
 
 #include "args.h"
+#include "progress.h"
 
-/* A context with the logger, which tells how far long estimates are; the caller destroys
- * it. EXIT_USAGE after an error line if this machine lacks what was asked for. */
-int device_context(const common_settings *common, const crv_logger *logger, report *r,
+/* A context that tells r how far long estimates are, on a GPU by `run`, which must not
+ * move. The caller destroys it. EXIT_USAGE after an error line if this machine lacks what
+ * was asked for. */
+int device_context(const common_settings *common, report *r, progress *run,
                    crv_context **out);
 
-/* The same with memory from this allocator and the library's own loops, for timing. */
+/* The same with this logger, memory from this allocator and the library's own loops, for
+ * timing. */
 int device_context_in(const common_settings *common, const crv_logger *logger,
                       const crv_allocator *allocator, report *r, crv_context **out);
 

@@ -5,7 +5,6 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #ifdef _OPENMP
 #include <omp.h>
@@ -13,13 +12,13 @@
 
 int estimate_open(estimator *e, const common_settings *common, report *r)
 {
-    *e = (estimator){.on_gpu = common->device && strcmp(common->device, "cpu") != 0};
+    *e = (estimator){.context = NULL};
 #ifdef _OPENMP
     /* Files are packed and unpacked by as many. */
     if (common->threads.value > 0)
         omp_set_num_threads(common->threads.value);
 #endif
-    return device_context(common, &r->logger, r, &e->context);
+    return device_context(common, r, &e->run, &e->context);
 }
 
 void estimate_fit(estimator *e, const crv_gbuffer_desc *desc)
@@ -111,7 +110,10 @@ int estimate_run(estimator *e, io_image *out, report *r)
     if (io_image_init(out, width, height, names, 1, &r->logger) != 0)
         return EXIT_FAILED;
     crv_image result = crv_image_packed(out->channels[0].data, width, height, 1);
-    if (!report_ok(r, crv_plan_run(e->plan, e->gbuffer, &result), "estimation")) {
+    e->run = progress_begin(r, "estimation", 0, 0);
+    const crv_status status = crv_plan_run(e->plan, e->gbuffer, &result);
+    progress_end(&e->run);
+    if (!report_ok(r, status, "estimation")) {
         io_image_free(out);
         return EXIT_FAILED;
     }

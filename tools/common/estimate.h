@@ -5,6 +5,7 @@
 
 #include "args.h"
 #include "io.h"
+#include "progress.h"
 
 typedef struct estimator {
     crv_context *context;
@@ -12,9 +13,10 @@ typedef struct estimator {
     crv_plan *plan;
     crv_options options;
     crv_gbuffer_desc desc;
-    bool on_gpu, is_announced;
+    progress run; /* the run of the plan on a GPU, which says how far it is */
 } estimator;
 
+/* e must not move afterwards: its context points to it. */
 int estimate_open(estimator *e, const common_settings *common, report *r);
 
 /* Makes room for a G-buffer of this description: an equal one keeps plan and G-buffer,
@@ -33,10 +35,6 @@ int estimate_depth(estimator *e, float **out, report *r);
 
 /* Whether the options ask for a height field and nothing else. */
 bool estimate_is_of_relief(const crv_options *options);
-
-/* Says how long a GPU is going to take for the plan on e->gbuffer, if that is more than
- * ten seconds: once for all frames. camera: that of the G-buffer. */
-void estimate_announce(estimator *e, const crv_camera *camera, report *r);
 
 /* Runs the plan on e->gbuffer. *out gets one channel, AO; the caller frees it. */
 int estimate_run(estimator *e, io_image *out, report *r);

@@ -117,3 +117,16 @@ crv_parallel progress_loops(report *r, int32_t threads)
     return (crv_parallel){0};
 #endif
 }
+
+static int32_t show_run(void *user, int32_t done, int32_t total)
+{
+    progress *p = user;
+    p->total = total;
+    progress_show(p, done);
+    return 0;
+}
+
+crv_progress progress_runs(progress *p)
+{
+    return (crv_progress){.fn = show_run, .user = p};
+}

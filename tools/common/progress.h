@@ -33,4 +33,7 @@ void progress_end(progress *p);
  * so that the library runs them, if the tool is built without OpenMP. */
 crv_parallel progress_loops(report *r, int32_t threads);
 
+/* Says the same of runs on a GPU: p is begun anew before each of them. */
+crv_progress progress_runs(progress *p);
+
 #endif

@@ -133,8 +133,6 @@ static int estimate(const render_settings *s, const scene *model, const scene_gb
     if (result == EXIT_DONE)
         result = estimate_plan(&e, &options, r);
     if (result == EXIT_DONE)
-        estimate_announce(&e, &g->camera, r);
-    if (result == EXIT_DONE)
         result = estimate_run(&e, ao, r);
     if (result == EXIT_DONE)
         check_open(s, g, ao, (double)options.radius, r);

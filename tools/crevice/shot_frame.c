@@ -32,8 +32,6 @@ static int compute(shot *t, const frame_paths *paths, ao_result *result, int32_t
     if (code == EXIT_DONE)
         code = estimate_plan(&t->estimator, &t->options, r);
     if (code == EXIT_DONE)
-        estimate_announce(&t->estimator, &result->frame.camera, r);
-    if (code == EXIT_DONE)
         code = estimate_run(&t->estimator, &result->ao, r);
     if (code == EXIT_DONE)
         code = facts_check_surface(&t->estimator, &result->ao, input, r);
