@@ -65,7 +65,7 @@ def parser() -> argparse.ArgumentParser:
     made.add_argument("--rays", type=rays, metavar="N",
                       help="rays of the references for each pixel, at most [128]")
     made.add_argument("--quick", action="store_true",
-                      help="small pictures, few rays and draws, one view: two to three minutes")
+                      help="small pictures, few rays and draws, one view: under two minutes")
     made.add_argument("--tool", metavar="FILE", help="the program crevice [the newest build]")
     made.add_argument("--threads", type=int, metavar="N", help="of the tool [all processors]")
     made.add_argument("--device", default="cpu", metavar="NAME", help="what estimates [cpu]")

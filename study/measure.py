@@ -2,11 +2,13 @@
 """What the sections measure with: frames, references, estimates and times of a view."""
 import functools
 import hashlib
-from collections.abc import Callable, Sequence
+import os
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -19,6 +21,17 @@ from .views import View
 
 # The intensity at which no method clamps; results scale with it.
 LINEAR = 0.25
+
+
+T = TypeVar("T")
+R = TypeVar("R")
+
+
+def side_by_side(run: Callable[[T], R], items: Iterable[T]) -> Iterator[R]:
+    """Results of several runs of the tool, in their order. A run for each processor: the
+    start of a process takes longer than a small picture."""
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        yield from pool.map(run, items)
 
 
 @dataclass(frozen=True)
@@ -125,26 +138,33 @@ class Study:
         """The file with the picture, which is kept."""
         return self.tool.make("ao", self.estimate_arguments(view, options, buffers))
 
+    def prepare(self, pictures: Iterable[tuple[View, Options]]) -> None:
+        """Makes the files of estimates side by side."""
+        for _ in side_by_side(lambda wanted: self.estimate(*wanted), pictures):
+            pass
+
     def picture(self, view: View, options: Options, buffers: Buffers = ONE_LAYER
                 ) -> np.ndarray:
         return images.read_single(self.estimate(view, options, buffers))
+
+    def draws(self, view: View, options: Options, seeds: Sequence[int]
+              ) -> Iterator[np.ndarray]:
+        """A picture for each seed; they are not kept."""
+        def draw(seed: int) -> np.ndarray:
+            path = self.tool.make("ao", self.estimate_arguments(
+                view, options.set(seed=seed), ONE_LAYER))
+            picture = images.read_single(path)
+            self.tool.forget(path)
+            return picture
+
+        yield from side_by_side(draw, seeds)
 
     def drawn(self, view: View, options: Options, seeds: Sequence[int], what: str,
               make: Callable[[list[np.ndarray]], Any]) -> Any:
         """A value made of pictures with these seeds; it is kept, the pictures are not."""
         arguments = self.estimate_arguments(view, options, ONE_LAYER)
         key = self.tool.key(["draws", *arguments, *map(str, seeds), what])
-
-        def run() -> Any:
-            pictures = []
-            for seed in seeds:
-                path = self.tool.make("ao", [*self.estimate_arguments(
-                    view, options.set(seed=seed), ONE_LAYER)])
-                pictures.append(images.read_single(path))
-                self.tool.forget(path)
-            return make(pictures)
-
-        return self.tool.recall(key, run)
+        return self.tool.recall(key, lambda: make(list(self.draws(view, options, seeds))))
 
     def mean(self, view: View, options: Options, seeds: Sequence[int]) -> np.ndarray:
         """The mean picture of these seeds; the picture is kept."""
@@ -153,11 +173,8 @@ class Study:
         path = self.tool.folder / f"{key}.npy"
         if not path.exists():
             total = np.zeros((view.height, view.width))
-            for seed in seeds:
-                made = self.tool.make("ao", self.estimate_arguments(
-                    view, options.set(seed=seed), ONE_LAYER))
-                total += images.read_single(made)
-                self.tool.forget(made)
+            for picture in self.draws(view, options, seeds):
+                total += picture
             part = path.with_suffix(".part.npy")
             np.save(part, (total / len(seeds)).astype(np.float32))
             part.replace(path)
@@ -187,8 +204,9 @@ class Study:
 
     def fit(self, view: View, options: Options, truth: Reference) -> Fit:
         """The best strengths are those of the result before it is clamped."""
-        plain = self.compare(self.estimate(view, options), truth.path)
-        linear = self.compare(self.estimate(view, options.set(intensity=LINEAR)), truth.path)
+        plain, linear = side_by_side(
+            lambda o: self.compare(self.estimate(view, o), truth.path),
+            (options, options.set(intensity=LINEAR)))
         return Fit(plain["rmse"], plain["bias"], plain["ssim"],
                    linear["fit_intensity"] * LINEAR, linear["fit_intensity_rmse"],
                    linear["fit_both_rmse"])

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from .. import closed_forms, images, plots, stats
-from ..measure import Study
+from ..measure import Study, side_by_side
 from ..options import Options, Target
 from . import Step
 
@@ -185,8 +185,9 @@ def measure(s: Study, groove: Groove, form: Form, **effort: Any) -> Error:
     key = s.tool.key(["groove", str(groove.path), *options.flags(), form.integral])
 
     def run() -> list[float]:
-        error = np.concatenate([run_groove(s, groove, options, seed) - exact
-                                for seed in range(1, DRAWS + 1)]) / strength
+        drawn = side_by_side(lambda seed: run_groove(s, groove, options, seed),
+                             range(1, DRAWS + 1))
+        error = np.concatenate([picture - exact for picture in drawn]) / strength
         return [float(np.sqrt(np.mean(error**2))), float(error.mean()),
                 float(np.abs(error).max())]
 

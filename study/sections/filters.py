@@ -83,14 +83,17 @@ def measure(s: Study, view: View, rows: list[Row], variants: list[Variant]) -> N
     for method in METHODS:
         options = s.options(method)
         truth = s.truth(view, options.target)
-        for name in ("none", *s.registry.filters):
-            chosen = options.set(filter=name)
+        filtered = [(name, options.set(filter=name)) for name in ("none", *s.registry.filters)]
+        s.prepare((v, chosen) for v in (view, *(look.view for look in motion.looks[:2]))
+                  for _, chosen in filtered)
+        for name, chosen in filtered:
             picture = s.picture(view, chosen)
             rows.append(Row(view.name, method, name, s.rmse(view, picture, truth),
                             stats.rmse(picture, truth, at_edges), flicker(s, motion, chosen)))
-    for text, method, settings in VARIANTS:
-        variants.append(Variant(view.name, text,
-                                flicker(s, motion, s.options(method, **settings))))
+    varied = [(text, s.options(method, **settings)) for text, method, settings in VARIANTS]
+    s.prepare((look.view, options) for look in motion.looks[:2] for _, options in varied)
+    variants += [Variant(view.name, text, flicker(s, motion, options))
+                 for text, options in varied]
 
 
 def flicker(s: Study, motion: stability.Motion, options: Options) -> float:

@@ -189,7 +189,9 @@ def change_of_error(motion: Motion, truth: Truth, pictures: list[np.ndarray]) ->
 def measure(s: Study, motion: Motion, row: Row) -> None:
     truth = row.truth = truth_of(s, motion, row.options.target)
     first = motion.taps[0]
-    for options in (row.options.set(filter="none"), row.options):
+    pair = row.options.set(filter="none"), row.options
+    s.prepare((look.view, options) for look in motion.looks for options in pair)
+    for options in pair:
         pictures = [s.picture(look.view, options) for look in motion.looks]
         changes = [t.change(a, b) for t, a, b in zip(motion.taps, pictures, pictures[1:])]
         row.change.append(stats.root_mean_square(np.concatenate(changes).tolist()))
