@@ -386,7 +386,8 @@ static void for_every_method(void **state)
         (*property)(crv_method_at(m)->name);
 }
 
-int main(void)
+/* test_conformance [--threads]: all properties, or the one that threads could break. */
+int main(int argc, char **argv)
 {
     static void (*const properties[])(const char *method) = {
         threads_do_not_matter,
@@ -418,5 +419,9 @@ int main(void)
         PROPERTY(9, "intensity and contrast follow their formula"),
         PROPERTY(10, "seeds differ and repeat"),
     };
+    if (argc > 1 && strcmp(argv[1], "--threads") == 0) {
+        const struct CMUnitTest threads[] = {tests[0]};
+        return cmocka_run_group_tests(threads, NULL, NULL);
+    }
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
