@@ -13,9 +13,9 @@
 #include "engine.h"
 #include "explain.h"
 #include "knob.h"
-#include "motion.h"
-#include "option_text.h"
-#include "target.h"
+#include "common/motion.h"
+#include "common/option_text.h"
+#include "common/target.h"
 
 static const double pi = 3.14159265358979323846;
 

@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 #include "session.h"
-#include "target.h"
+#include "common/target.h"
 
 enum { WIDTH = 48, HEIGHT = 27, COUNT = WIDTH * HEIGHT };
 

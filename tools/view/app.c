@@ -6,7 +6,7 @@
 
 #include "command_text.h"
 #include "io.h"
-#include "option_text.h"
+#include "common/option_text.h"
 #include "panel.h"
 
 /* A view is still after this. */

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "motion.h"
+#include "common/motion.h"
 
 /* How near to the line a drag takes it, px; how much a key does. */
 static const double grip_px = 8.0, key_turn = 0.06, key_share = 0.04, key_zoom = 1.15;

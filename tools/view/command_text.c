@@ -4,10 +4,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "append.h"
 #include "common/exact.h"
-#include "option_text.h"
-#include "target.h"
+#include "common/option_text.h"
+#include "common/target.h"
+#include "common/text.h"
 
 /* As one word of a shell. */
 static void append_word(char out[COMMAND_SIZE], const char *word)

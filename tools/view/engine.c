@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "common/device.h"
+#include "common/target.h"
 #include "paint.h"
-#include "target.h"
 
 /* Moving pictures are ray-cast in about this time. */
 #define MOVING_MS 30.0

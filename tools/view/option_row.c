@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "option_text.h"
+#include "common/option_text.h"
 
 static const double step = 0.01, page = 0.1;
 

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "command_text.h"
-#include "motion.h"
-#include "option_text.h"
+#include "common/motion.h"
+#include "common/option_text.h"
 #include "panel.h"
 #include "script.h"
 

@@ -7,19 +7,6 @@
 
 #include "common/radius.h"
 
-static const double degree = 3.14159265358979323846 / 180.0;
-
-bool source_is_frame(const char *input)
-{
-    static const char *const extensions[] = {".exr", ".EXR", ".png",
-                                             ".PNG", ".pfm", ".PFM"};
-    const char *dot = strrchr(input, '.');
-    for (size_t i = 0; dot && i < sizeof extensions / sizeof extensions[0]; i++)
-        if (strcmp(dot, extensions[i]) == 0)
-            return true;
-    return false;
-}
-
 const char *source_frame_name(const source *s, int32_t index, char *out, size_t size)
 {
     const char *input = s->settings->model;
@@ -31,20 +18,10 @@ const char *source_frame_name(const source *s, int32_t index, char *out, size_t 
 static int open_frames(source *s, const char *frames, report *r)
 {
     const view_settings *v = s->settings;
-    const char *mistake = pass_mistake(s->passes, v->ortho.given);
-    if (mistake) {
-        report_error(r, "%s", mistake);
-        return EXIT_USAGE;
-    }
-    s->request = pass_request(s->passes);
-    s->request.keep_overscan = true; /* as `crevice ao` does */
-    s->request.remedies.camera =
-        "give its vertical field of view with --vfov DEGREES, or "
-        "--ortho HEIGHT";
-    if (v->vfov_deg.given)
-        s->request.vfov_rad = (float)(v->vfov_deg.value * degree);
-    if (v->ortho.given)
-        s->request.view_height = (float)v->ortho.value;
+    const int result =
+        pass_view_request(s->passes, &v->vfov_deg, &v->ortho, &s->request, r);
+    if (result != EXIT_DONE)
+        return result;
     s->frame_count = 1;
     if (!frames && frames_places(v->model) == 0)
         return EXIT_DONE;
@@ -60,7 +37,7 @@ static int open_frames(source *s, const char *frames, report *r)
 int source_open(source *s, const viewer_settings *settings, report *r)
 {
     *s = (source){.settings = &settings->view, .passes = &settings->passes};
-    if (source_is_frame(settings->view.model))
+    if (pass_is_frame(settings->view.model))
         return open_frames(s, settings->frames, r);
     if (settings->frames) {
         report_error(r, "--frames: is for .exr frames, not for a mesh; leave it out");

@@ -20,9 +20,6 @@ typedef struct source {
     atomic_bool stop;
 } source;
 
-/* Whether INPUT is a frame, by its extension: .exr, .png, .pfm. */
-bool source_is_frame(const char *input);
-
 /* Loads the mesh, or sees to it that there are frames; settings must outlive it. Returns
  * an exit code; free it in any case. */
 int source_open(source *s, const viewer_settings *settings, report *r);

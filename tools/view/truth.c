@@ -10,7 +10,7 @@
 #include <time.h>
 
 #include "common/report.h"
-#include "target.h"
+#include "common/target.h"
 
 /* Pixels between two looks at the wishes: a few milliseconds. */
 enum { CHUNK = 1024 };

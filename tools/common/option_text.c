@@ -4,9 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "append.h"
-#include "common/exact.h"
-#include "common/help.h"
+#include "text.h"
+#include "exact.h"
+#include "help.h"
 
 const char *option_value_text(const crv_option *option, double value, char out[64])
 {

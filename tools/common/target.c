@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "common/exact.h"
+#include "exact.h"
 
 /* Falloffs of the methods that have one of their own. */
 static const struct own_falloff {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* option_text.h: options as text that the tool and the library read again. */
-#ifndef VIEW_OPTION_TEXT_H
-#define VIEW_OPTION_TEXT_H
+#ifndef TOOL_OPTION_TEXT_H
+#define TOOL_OPTION_TEXT_H
 
 #include "crevice/crevice.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* motion.h: how a camera moves under the mouse and the keys. */
-#ifndef VIEW_MOTION_H
-#define VIEW_MOTION_H
+/* motion.h: how a camera moves. */
+#ifndef TOOL_MOTION_H
+#define TOOL_MOTION_H
 
 #include "scene.h"
 

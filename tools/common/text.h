@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* append.h: text that grows in a buffer. */
-#ifndef VIEW_APPEND_H
-#define VIEW_APPEND_H
+/* text.h: text that grows in a buffer. */
+#ifndef TOOL_TEXT_H
+#define TOOL_TEXT_H
 
 #include <stddef.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* target.h: the integral that a method estimates: what its truth is. */
-#ifndef VIEW_TARGET_H
-#define VIEW_TARGET_H
+#ifndef TOOL_TARGET_H
+#define TOOL_TARGET_H
 
 #include "reference.h"
 
