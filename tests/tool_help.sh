@@ -5,10 +5,10 @@
 good --version
 grep -Eq '^crevice [0-9]+\.[0-9]+\.[0-9]+$' stdout.txt || fail "--version"
 good --help
-for command in render ao gbuffer reference compare methods devices bench; do
+for command in render ao gbuffer reference compare methods devices bench tune; do
     grep -q "^  $command " stdout.txt || fail "$command is not in the overview"
 done
-for command in render ao gbuffer reference compare methods devices bench; do
+for command in render ao gbuffer reference compare methods devices bench tune; do
     good help $command
     mv stdout.txt help.txt
     good $command --help

@@ -46,6 +46,23 @@ bool estimate_same_options(const crv_options *a, const crv_options *b)
     return true;
 }
 
+crv_status estimate_take(crv_context *context, const crv_gbuffer_desc *desc,
+                         const crv_options *options, crv_plan **plan, crv_options *taken)
+{
+    if (*plan && estimate_same_options(taken, options))
+        return CRV_OK;
+    if (!*plan || crv_plan_set_options(*plan, options) != CRV_OK) {
+        crv_plan *made = NULL;
+        const crv_status status = crv_plan_create(context, options, desc, &made);
+        if (status != CRV_OK)
+            return status;
+        crv_plan_destroy(*plan);
+        *plan = made;
+    }
+    *taken = *options;
+    return CRV_OK;
+}
+
 int estimate_plan(estimator *e, const crv_options *options, report *r)
 {
     if (e->plan && estimate_same_options(&e->options, options))

@@ -26,6 +26,12 @@ void estimate_fit(estimator *e, const crv_gbuffer_desc *desc);
 /* Makes the plan, unless there is one with these options already. */
 int estimate_plan(estimator *e, const crv_options *options, report *r);
 
+/* Gives *plan other options, or makes one if it cannot take them; NULL: none yet. taken:
+ * its options so far. An error leaves both as they were; the context's log says what
+ * failed, and also what a plan could not take. */
+crv_status estimate_take(crv_context *context, const crv_gbuffer_desc *desc,
+                         const crv_options *options, crv_plan **plan, crv_options *taken);
+
 /* Whether they say the same in every option of the table. */
 bool estimate_same_options(const crv_options *a, const crv_options *b);
 

@@ -41,8 +41,8 @@ static int by_darkness(const void *x, const void *y)
     return (a->wanted > b->wanted) - (a->wanted < b->wanted);
 }
 
-static bool gather(const float *a, const float *b, const uint8_t *mask, size_t count,
-                   samples *out)
+static bool collect(const float *a, const float *b, const uint8_t *mask, size_t count,
+                    samples *out)
 {
     out->at = malloc((count > 0 ? count : 1) * sizeof *out->at);
     out->count = 0;
@@ -51,6 +51,14 @@ static bool gather(const float *a, const float *b, const uint8_t *mask, size_t c
     for (size_t i = 0; i < count; i++)
         if (!mask || mask[i])
             out->at[out->count++] = (sample){1.0 - (double)a[i], (double)b[i], 1.0};
+    return true;
+}
+
+static bool gather(const float *a, const float *b, const uint8_t *mask, size_t count,
+                   samples *out)
+{
+    if (!collect(a, b, mask, count, out))
+        return false;
     qsort(out->at, out->count, sizeof *out->at, by_darkness);
     return true;
 }
@@ -113,22 +121,23 @@ static double limited(double value, double factor_log, double low, double high)
     return fmin(fmax(value * exp(factor_log), low), high);
 }
 
-/* A damped step from a curve; the intensity stays where it is `fixed`. If the power
- * comes to an end of its range, the intensity makes the best of that. */
+/* A damped step from a curve, of what may change. If the power comes to an end of its
+ * range, the intensity makes the best of that. */
 static metrics_curve step(const slope *at, const metrics_curve *from, double damping,
-                          bool fixed)
+                          unsigned what)
 {
+    const bool both = what == (METRICS_INTENSITY | METRICS_POWER);
     const double a = at->hessian[0] * (1.0 + damping);
     const double c = at->hessian[2] * (1.0 + damping);
-    const double b = fixed ? 0.0 : at->hessian[1], determinant = a * c - b * b;
+    const double b = both ? at->hessian[1] : 0.0, determinant = a * c - b * b;
     double by_power = 0.0;
     metrics_curve to = *from;
-    if (!fixed && determinant > 0.0)
+    if (both && determinant > 0.0)
         by_power = -(a * at->gradient[1] - b * at->gradient[0]) / determinant;
-    else if (c > 0.0)
+    else if ((what & METRICS_POWER) && c > 0.0)
         by_power = -at->gradient[1] / c;
     to.power = limited(from->power, by_power, METRICS_POWER_MIN, METRICS_POWER_MAX);
-    if (fixed || !(a > 0.0))
+    if (!(what & METRICS_INTENSITY) || !(a > 0.0))
         return to;
     by_power = log(to.power / from->power);
     to.intensity = limited(from->intensity, -(at->gradient[0] + b * by_power) / a, 0.0,
@@ -137,12 +146,12 @@ static metrics_curve step(const slope *at, const metrics_curve *from, double dam
 }
 
 /* Downhill from `curve`, which is never left for a worse one. */
-static void descend(const samples *s, bool fixed, metrics_curve *curve)
+static void descend(const samples *s, unsigned what, metrics_curve *curve)
 {
     slope at = slope_at(s, curve->intensity, curve->power);
     double damping = 1e-3;
     for (int i = 0; i < ITERATIONS_MAX && damping < 1e9; i++) {
-        metrics_curve to = step(&at, curve, damping, fixed);
+        metrics_curve to = step(&at, curve, damping, what);
         slope there = slope_at(s, to.intensity, to.power);
 
         if (!(there.square < at.square)) {
@@ -226,20 +235,20 @@ static void set_rmse(const samples *s, metrics_curve *curve)
 static void fit(const samples *all, const samples *groups, metrics_fit *out)
 {
     out->power = search(groups, true);
-    descend(all, true, &out->power);
+    descend(all, METRICS_POWER, &out->power);
     set_rmse(all, &out->power);
     out->intensity = (metrics_curve){.intensity = best_intensity(all), .power = 1.0};
     set_rmse(all, &out->intensity);
 
     out->both = search(groups, false);
-    descend(groups, false, &out->both);
+    descend(groups, METRICS_INTENSITY | METRICS_POWER, &out->both);
     set_rmse(all, &out->both);
     /* Groups only stand for the pixels; both is no worse than one alone. */
     if (!(out->both.rmse < out->power.rmse))
         out->both = out->power;
     if (!(out->both.rmse < out->intensity.rmse))
         out->both = out->intensity;
-    descend(all, false, &out->both);
+    descend(all, METRICS_INTENSITY | METRICS_POWER, &out->both);
     set_rmse(all, &out->both);
 }
 
@@ -256,6 +265,18 @@ bool metrics_fit_curves(const float *a, const float *b, const uint8_t *mask,
         group(&all, memory, &groups);
         fit(&all, &groups, out);
     }
+    free(all.at);
+    return true;
+}
+
+bool metrics_fit_near(const float *a, const float *b, size_t count, unsigned what,
+                      metrics_curve *curve)
+{
+    samples all;
+    if (!collect(a, b, NULL, count, &all))
+        return false;
+    descend(&all, what, curve);
+    set_rmse(&all, curve);
     free(all.at);
     return true;
 }

@@ -8,6 +8,7 @@
 #define TOOL_METRICS_FIT_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 /* Searched: the ranges of the library's options. */
@@ -30,5 +31,14 @@ typedef struct metrics_fit {
  * pixel to compare. Returns false if memory ran out. */
 bool metrics_fit_curves(const float *a, const float *b, const uint8_t *mask,
                         int32_t width, int32_t height, metrics_fit *out);
+
+/* What of a curve may change. */
+enum { METRICS_INTENSITY = 1, METRICS_POWER = 2 };
+
+/* Downhill from *curve to the nearest best one, whose rmse is set; unlike the search of
+ * metrics_fit_curves() it takes little more than a pass over the values. what: bits of
+ * the two above. Returns false if memory ran out. */
+bool metrics_fit_near(const float *a, const float *b, size_t count, unsigned what,
+                      metrics_curve *curve);
 
 #endif

@@ -23,11 +23,11 @@ const char *pass_mistake(const pass_settings *p, bool ortho);
 /* A request that says so; the camera and the rest are left to be found. */
 io_passes_request pass_request(const pass_settings *p);
 
-/* Whether an input is a frame, by its extension: .exr, .png, .pfm; else it is a mesh. */
+/* Whether an input is a frame, by its extension: .exr, .png, .pfm; else a mesh. */
 bool pass_is_frame(const char *input);
 
-/* The request of a frame whose camera --vfov or --ortho tells, or its metadata. Returns an
- * exit code. */
+/* The request of a frame whose camera --vfov or --ortho tells, or its metadata. Returns
+ * an exit code. */
 int pass_view_request(const pass_settings *p, const arg_number *vfov_deg,
                       const arg_number *ortho, io_passes_request *out, report *r);
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ao_pass.h"
 #include "commands.h"
 #include "common/flip.h"
 #include "common/heatmap.h"
@@ -96,29 +97,6 @@ typedef struct picture {
 
 enum { MAX_READ = 8 };
 
-static const char *choose_channel(const char *path, const io_image *probe,
-                                  const char *wanted, report *r)
-{
-    const char *found[3];
-    if (wanted)
-        return wanted; /* io_read() lists them if it is not one of them */
-    if (probe->channel_count == 1)
-        return probe->channels[0].name;
-    if (io_find_pass(probe, IO_PASS_AO, found)) {
-        if (strcmp(found[0], "AO") != 0)
-            report_info(r, "%s: \"%s\" is compared (choose with --channel)", path,
-                        found[0]);
-        return found[0];
-    }
-    if (io_image_find(probe, "Y"))
-        return "Y";
-    report_error(r,
-                 "%s: has %d channels and none is named AO or the like; choose one with "
-                 "--channel",
-                 path, probe->channel_count);
-    return NULL;
-}
-
 /* The place of a name in the list, to which it is added if it is not there yet. */
 static int32_t place_of(const char *names[MAX_READ], int32_t *count, const char *name)
 {
@@ -189,7 +167,7 @@ static int load(const char *path, const char *wanted, picture *out, report *r)
     io_image probe = {0};
     if (io_probe(path, &probe, &r->logger) != 0)
         return EXIT_FAILED;
-    const char *chosen = choose_channel(path, &probe, wanted, r);
+    const char *chosen = ao_pass_choose(path, &probe, wanted, "--channel", r);
     const int result = chosen ? read_channels(path, &probe, chosen, out, r) : EXIT_USAGE;
     io_image_free(&probe);
     if (result == EXIT_DONE && out->normal[0] && !are_unit(out))

@@ -13,5 +13,6 @@ extern const command command_compare;
 extern const command command_methods;
 extern const command command_devices;
 extern const command command_bench;
+extern const command command_tune;
 
 #endif

@@ -22,11 +22,17 @@
 
 enum { THREADS_MAX = 1024 }; /* as --threads */
 
-static const command *const commands[] = {&command_render,  &command_ao,
-                                          &command_gbuffer, &command_reference,
-                                          &command_compare, &command_methods,
-                                          &command_devices, &command_bench,
-                                          &command_view,    NULL};
+static const command *const commands[] = {&command_render,
+                                          &command_ao,
+                                          &command_gbuffer,
+                                          &command_reference,
+                                          &command_compare,
+                                          &command_methods,
+                                          &command_devices,
+                                          &command_bench,
+                                          &command_tune,
+                                          &command_view,
+                                          NULL};
 
 static const command *find_command(const char *name, report *r)
 {

@@ -21,23 +21,14 @@ void estimation_stale(estimation *e)
 static crv_status make_plan(estimation *e, crv_context *context,
                             const crv_gbuffer_desc *desc, const crv_options *options)
 {
-    const bool fits = e->plan && crv_gbuffer_desc_equal(&e->desc, desc);
-    if (fits && estimate_same_options(&e->options, options))
-        return CRV_OK;
-    e->fresh = false;
-    if (fits && crv_plan_set_options(e->plan, options) == CRV_OK) {
-        e->options = *options;
-        return CRV_OK;
+    if (e->plan && !crv_gbuffer_desc_equal(&e->desc, desc)) {
+        crv_plan_destroy(e->plan);
+        e->plan = NULL;
     }
-    crv_plan *plan = NULL;
-    const crv_status status = crv_plan_create(context, options, desc, &plan);
-    if (status != CRV_OK)
-        return status;
-    crv_plan_destroy(e->plan);
-    e->plan = plan;
-    e->options = *options;
+    if (!e->plan || !estimate_same_options(&e->options, options))
+        e->fresh = false;
     e->desc = *desc;
-    return CRV_OK;
+    return estimate_take(context, desc, options, &e->plan, &e->options);
 }
 
 static crv_status make_room(estimation *e)
