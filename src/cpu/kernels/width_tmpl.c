@@ -5,6 +5,9 @@
  * search began. So the distance to the silhouette is found by one scan along each line:
  * half a pixel where the surface ends, infinite where the search does, and else one more
  * than the next pixel's.
+ *
+ * A strip is as many parallel lines as there are lanes. A line has a width only if depth
+ * jumps on it both ways; most strips have no such line and are left out.
  */
 #include "cpu/kernels/lanes.h"
 
@@ -19,13 +22,18 @@ enum {
     TOP = HALO + 1 /* row of the tile */
 };
 
-/* A tile's depth, with what lies around it; 0: not on the buffers. And distances. */
+/* A tile's depth, with what lies around it; -INFINITY: not on the buffers. */
 typedef struct surroundings {
     float depth[ROWS][PITCH];
-    float line[2][PITCH];       /* of the two rows of a scan */
-    float ahead[HEIGHT][WIDTH]; /* of one axis, in one direction */
-    float least[HEIGHT][WIDTH]; /* widths so far, over the depth's unit */
+    float least[HEIGHT][PITCH]; /* widths so far, over the depth's unit */
 } surroundings;
+
+/* An axis of the image. */
+typedef struct axis {
+    int32_t dx;    /* columns from row to row */
+    int32_t reach; /* pixels beyond a pixel at which a silhouette still counts */
+    float length;  /* of a step, over the depth's unit */
+} axis;
 
 static void copy_depth(surroundings *s, const crv__plane *plane, crv__tile tile)
 {
@@ -35,9 +43,10 @@ static void copy_depth(surroundings *s, const crv__plane *plane, crv__tile tile)
     for (int32_t r = 0; r < ROWS; r++) {
         const int32_t y = tile.y0 - TOP + r;
         float *row = s->depth[r];
-        if (y < 0 || y >= plane->height || x1 - x0 < PITCH)
-            __builtin_memset(row, 0, sizeof s->depth[0]);
-        if (y >= 0 && y < plane->height)
+        const bool is_there = y >= 0 && y < plane->height;
+        for (int32_t c = 0; c < PITCH && (!is_there || x1 - x0 < PITCH); c++)
+            row[c] = -INFINITY;
+        if (is_there)
             __builtin_memcpy(row + (x0 - left), crv__plane_at(plane, x0, y),
                              (size_t)(x1 - x0) * sizeof(float));
     }
@@ -61,83 +70,137 @@ CRV__INLINE vf distance_of(const crv__params *p, vf before, vf own, vf next, vf 
     }
     const vm silhouette =
         vm_or(vm_and(recedes, ends), vm_and(vm_not(recedes), vf_lt(jump, next - own)));
-    const vm hidden = vm_or(vf_le(next, zero), vf_lt(jump, own - next));
+    const vm hidden = vf_lt(jump, own - next); /* off the buffers, too */
     const vf on = vf_select(hidden, vf_set(INFINITY), further + vf_set(1));
     return vf_select(silhouette, vf_set(0.5f), on);
 }
 
-/* Distances of a row from the scan's row before. The line goes on by dx columns and dr
- * rows. */
-CRV__INLINE void scan_row(surroundings *s, const crv__params *p, int32_t r, int32_t dx,
-                          int32_t dr, const float *further, float *line)
+/* Whether some of these lines may have a width: `count` places from `at` on, `step`
+ * floats from one to the next. */
+CRV__INLINE bool jumps_both_ways(const crv__params *p, const float *at, ptrdiff_t step,
+                                 int32_t count)
 {
-    const int32_t halo = dx ? HALO : 0;
-    for (int32_t c = FIRST - halo; c < FIRST + WIDTH + halo; c += CRV__LANES) {
-        const vf before = vf_load(&s->depth[r - dr][c - dx]);
-        const vf own = vf_load(&s->depth[r][c]),
-                 next = vf_load(&s->depth[r + dr][c + dx]);
-        vf_store(line + c, distance_of(p, before, own, next, vf_load(further + c + dx)));
+    const vf jump = vf_set(0.2f * p->radius), minus_jump = vf_zero() - jump;
+    vm back = vm_none(), forth = vm_none();
+    vf own = vf_load(at);
+    for (int32_t i = 1; i < count; i++) {
+        const vf next = vf_load(at + i * step), change = next - own;
+        back = vm_or(back, vf_lt(jump, change));
+        forth = vm_or(forth, vf_lt(change, minus_jump));
+        own = next;
+    }
+    return vm_any(vm_and(back, forth));
+}
+
+/* Takes the widths of a strip's lines into account, of their places in the rows `low` to
+ * high - 1 of the tile. In row 0 the strip's first line is at column c. */
+CRV__INLINE void scan_strip(surroundings *s, const crv__params *p, const axis *a,
+                            int32_t c, int32_t low, int32_t high)
+{
+    const ptrdiff_t step = PITCH + a->dx;
+    const float *depth = s->depth[0] + TOP * PITCH + c;
+    float *least = s->least[0] + c;
+    const int32_t begin = low - a->reach, end = high + a->reach;
+    if (!jumps_both_ways(p, depth + (begin - 1) * step, step, end - begin + 2))
+        return;
+    _Alignas(64) float ahead[HEIGHT][CRV__LANES];
+    vf far = vf_set(INFINITY), own = vf_load(depth + (end - 1) * step),
+       next = vf_load(depth + end * step);
+    for (int32_t i = end - 1; i >= low; i--) {
+        const vf before = vf_load(depth + (i - 1) * step);
+        far = distance_of(p, before, own, next, far);
+        next = own;
+        own = before;
+        if (i < high)
+            vf_store(ahead[i], far);
+    }
+    const vf limit = vf_set((float)a->reach + 0.5f), infinity = vf_set(INFINITY),
+             length = vf_set(a->length);
+    far = infinity;
+    own = vf_load(depth + begin * step);
+    next = vf_load(depth + (begin - 1) * step);
+    for (int32_t i = begin; i < high; i++) {
+        const vf before = vf_load(depth + (i + 1) * step);
+        far = distance_of(p, before, own, next, far);
+        next = own;
+        own = before;
+        if (i < low)
+            continue;
+        const vf other = vf_load(ahead[i]);
+        const vm both = vm_and(vf_le(far, limit), vf_le(other, limit));
+        const vf width = vf_select(both, (other + far) * length, infinity);
+        vf_store(least + i * step, vf_min(width, vf_load(least + i * step)));
     }
 }
 
-/* Takes an axis' distances of a row, on both sides, into account. */
-CRV__INLINE void take_row(surroundings *s, int32_t r, const float *behind, float most,
-                          float step)
+/* An axis that goes from row to row. Each strip takes the rows in which it meets the
+ * tile. */
+static void scan_rows(surroundings *s, const crv__params *p, const axis *a)
 {
-    float *ahead = s->ahead[r - TOP], *least = s->least[r - TOP];
-    const vf limit = vf_set(most), infinity = vf_set(INFINITY);
-    for (int32_t c = 0; c < WIDTH; c += CRV__LANES) {
-        const vf a = vf_load(ahead + c), b = vf_load(behind + c);
-        const vm both = vm_and(vf_le(a, limit), vf_le(b, limit));
-        const vf width = vf_select(both, (a + b) * vf_set(step), infinity);
-        vf_store(least + c, vf_min(width, vf_load(least + c)));
+    const int32_t right = FIRST + WIDTH;
+    const int32_t begin = a->dx > 0 ? FIRST - HEIGHT : FIRST,
+                  end = a->dx < 0 ? right + HEIGHT : right;
+    for (int32_t c = begin; c < end; c += CRV__LANES) {
+        int32_t low = 0, high = HEIGHT;
+        if (a->dx > 0) {
+            low = FIRST - CRV__LANES - c + 1;
+            high = right - c;
+        }
+        if (a->dx < 0) {
+            low = c - right + 1;
+            high = c + CRV__LANES - FIRST;
+        }
+        low = low > 0 ? low : 0;
+        high = high < HEIGHT ? high : HEIGHT;
+        if (low < high)
+            scan_strip(s, p, a, c, low, high);
     }
 }
 
-/* An axis that goes from row to row, dx columns aside. */
-static void scan_rows(surroundings *s, const crv__params *p, int32_t dx, float most,
-                      float step)
+/* Whether a row of the tile may have a width along it. */
+CRV__INLINE bool row_jumps_both_ways(const crv__params *p, const float *row)
 {
-    for (int32_t c = 0; c < PITCH; c++)
-        s->line[0][c] = s->line[1][c] = INFINITY;
-    for (int32_t r = TOP + HEIGHT + HALO - 1, turn = 0; r >= TOP; r--, turn = !turn) {
-        scan_row(s, p, r, dx, 1, s->line[turn], s->line[!turn]);
-        if (r < TOP + HEIGHT)
-            __builtin_memcpy(s->ahead[r - TOP], s->line[!turn] + FIRST,
-                             sizeof s->ahead[0]);
+    const vf jump = vf_set(0.2f * p->radius), minus_jump = vf_zero() - jump;
+    vm back = vm_none(), forth = vm_none();
+    for (int32_t c = PAD; c < PITCH - PAD; c += CRV__LANES) {
+        const vf change = vf_load(row + c + 1) - vf_load(row + c);
+        back = vm_or(back, vf_lt(jump, change));
+        forth = vm_or(forth, vf_lt(change, minus_jump));
     }
-    for (int32_t c = 0; c < PITCH; c++)
-        s->line[0][c] = s->line[1][c] = INFINITY;
-    for (int32_t r = TOP - HALO, turn = 0; r < TOP + HEIGHT; r++, turn = !turn) {
-        scan_row(s, p, r, -dx, -1, s->line[turn], s->line[!turn]);
-        if (r >= TOP)
-            take_row(s, r, s->line[!turn] + FIRST, most, step);
-    }
+    return vm_any(back) && vm_any(forth);
 }
 
 /* The axis along a row: events by vectors, then both scans at once. */
-static void scan_columns(surroundings *s, const crv__params *p, float most, float step)
+static void scan_columns(surroundings *s, const crv__params *p, const axis *a)
 {
-    float *ahead = s->line[0], *behind = s->line[1];
-    const vf none = vf_set(-2); /* an event's distance is not negative */
-    for (int32_t r = TOP; r < TOP + HEIGHT; r++) {
-        const float *row = s->depth[r];
+    float ahead[PITCH], behind[PITCH];
+    const vf none = vf_set(-2), infinity = vf_set(INFINITY); /* an event's is positive */
+    const vf limit = vf_set((float)a->reach + 0.5f), length = vf_set(a->length);
+    for (int32_t r = 0; r < HEIGHT; r++) {
+        const float *row = s->depth[TOP + r];
+        if (!row_jumps_both_ways(p, row))
+            continue;
         for (int32_t c = PAD; c < PITCH - PAD; c += CRV__LANES) {
             const vf left = vf_load(row + c - 1), own = vf_load(row + c),
                      right = vf_load(row + c + 1);
             vf_store(ahead + c, distance_of(p, left, own, right, none));
             vf_store(behind + c, distance_of(p, right, own, left, none));
         }
-        float a = INFINITY, b = INFINITY;
+        float next = INFINITY, before = INFINITY;
         for (int32_t i = PAD; i < FIRST + WIDTH; i++) {
             const int32_t j = PITCH - 1 - i;
-            a = ahead[j] >= 0 ? ahead[j] : a + 1;
-            b = behind[i] >= 0 ? behind[i] : b + 1;
-            ahead[j] = a;
-            behind[i] = b;
+            next = ahead[j] >= 0 ? ahead[j] : next + 1;
+            before = behind[i] >= 0 ? behind[i] : before + 1;
+            ahead[j] = next;
+            behind[i] = before;
         }
-        __builtin_memcpy(s->ahead[r - TOP], ahead + FIRST, sizeof s->ahead[0]);
-        take_row(s, r, behind + FIRST, most, step);
+        float *least = s->least[r];
+        for (int32_t c = FIRST; c < FIRST + WIDTH; c += CRV__LANES) {
+            const vf there = vf_load(ahead + c), back = vf_load(behind + c);
+            const vm both = vm_and(vf_le(there, limit), vf_le(back, limit));
+            const vf width = vf_select(both, (there + back) * length, infinity);
+            vf_store(least + c, vf_min(width, vf_load(least + c)));
+        }
     }
 }
 
@@ -150,7 +213,7 @@ CRV__INLINE void write_rows(const crv__frame *f, const surroundings *s,
             const int32_t rest = tile.x1 - x;
             const float *at = &s->depth[y - tile.y0 + TOP][x - tile.x0 + FIRST];
             const vf d = vf_load(at), infinity = vf_set(INFINITY);
-            const vf steps = vf_load(&s->least[y - tile.y0][x - tile.x0]);
+            const vf steps = vf_load(&s->least[y - tile.y0][x - tile.x0 + FIRST]);
             const vf width = p->orthographic ? steps : steps * d;
             vf_store_n(crv__plane_at(out, x, y),
                        vf_select(vf_lt(d, infinity), width, infinity), rest);
@@ -169,16 +232,20 @@ void CRV__NAME(width)(const crv__frame *f, const crv__plane *out, crv__tile tile
 void CRV__NAME(width)(const crv__frame *f, const crv__plane *out, crv__tile tile)
 {
     const crv__params *p = f->params;
-    const float straight = HALO - 0.5f, diagonal = 22.5f; /* times sqrt(2): 31.8 px */
     const float oblique = length_of(p->inv_fx, p->inv_fy);
+    const axis columns = {.reach = HALO - 1, .length = p->inv_fx},
+               rows = {.reach = HALO - 1, .length = p->inv_fy};
+    /* 22.5 times sqrt(2): 31.8 px */
+    const axis falling = {.dx = 1, .reach = 22, .length = oblique},
+               rising = {.dx = -1, .reach = 22, .length = oblique};
     surroundings s;
     copy_depth(&s, &f->depth[0], tile);
     for (int32_t r = 0; r < HEIGHT; r++)
-        for (int32_t c = 0; c < WIDTH; c++)
+        for (int32_t c = 0; c < PITCH; c++)
             s.least[r][c] = INFINITY;
-    scan_columns(&s, p, straight, p->inv_fx);
-    scan_rows(&s, p, 0, straight, p->inv_fy);
-    scan_rows(&s, p, 1, diagonal, oblique);
-    scan_rows(&s, p, -1, diagonal, oblique);
+    scan_columns(&s, p, &columns);
+    scan_rows(&s, p, &rows);
+    scan_rows(&s, p, &falling);
+    scan_rows(&s, p, &rising);
     write_rows(f, &s, out, tile);
 }
