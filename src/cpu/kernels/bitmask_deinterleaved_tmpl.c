@@ -25,6 +25,7 @@ typedef struct sectors {
 typedef struct scale {
     vf a, b; /* -16 a / Ft and -16 b / Ft; uniform: b alone, -32 / Ft */
     vf offset;
+    vf flat; /* see flatness() */
     int32_t uniform;
 } scale;
 
@@ -58,6 +59,25 @@ CRV__INLINE vf thickness_of(const sectors *so_far, const crv__slice_view *w, sha
     return vf_set(w->params->thickness) * w->scale;
 }
 
+/*
+ * `flat` of a slice. A front that rises over the tangent by an angle delta has at most
+ *
+ *     cosine:   |(a, b)| (1 - cos delta) < |(a, b)| sin^2(delta)/1.9
+ *     uniform:  delta < 1.1 sin(delta)
+ *
+ * of the measure below it, with sin(delta) = h a/(|(a, b)| r), h its height over the
+ * tangent along V. It blocks no sector if that is less than Ft (1 - zeta)/32, for which
+ * flat h^2 < r^2 suffices. Tangents by which delta may be obtuse get no such limit.
+ */
+CRV__INLINE vf flatness(const crv__slice_view *w, const crv__group_slice *s, float offset,
+                        int32_t uniform)
+{
+    const vf share = s->inverse * vf_set(1.2f * SECTORS / (1 - offset));
+    const vf limit = uniform ? s->sin_tangent * share * (s->sin_tangent * share)
+                             : s->sin_tangent * w->a * share * vf_set(0.5f);
+    return vf_select(vf_lt(s->cos_tangent, vf_set(-0.9f)), vf_set(1e30f), limit);
+}
+
 CRV__INLINE void add_sample(sectors *to, const crv__slice_view *w,
                             const crv__group_slice *s, const scale *places, shape c,
                             const crv__sample *sample, vf x, vf z, vf width)
@@ -68,14 +88,21 @@ CRV__INLINE void add_sample(sectors *to, const crv__slice_view *w,
     to->start = vf_select(begins, x, to->start);
     to->last_x = x;
     to->last_z = z;
+    const vf part = vf_set(0.25f * (1 - sample->near)), front_x = vf_fma(-x, part, x);
+    const vf height = vf_fma(s->b_over_a, x, z);
+    const vf raised_z = vf_fma(-s->b_over_a, front_x, height);
+    const vf front_squared = vf_fma(front_x, front_x, raised_z * raised_z);
+    const vm rises = vm_and(vm_and(vf_lt(zero, x), vf_lt(zero, height)),
+                            vf_le(front_squared, places->flat * height * height));
+    if (!vm_any(rises))
+        return; /* most of flat surfaces */
     const vf thickness = thickness_of(to, w, c, x, width);
-    const vf part = vf_set(0.25f * (1 - sample->near));
-    const vf front_x = vf_fma(-x, part, x), back_x = x * vf_set(sample->far);
+    const vf back_x = x * vf_set(sample->far);
     const vf rest = vf_max(vf_fma(-front_x, front_x, w->radius2), vf_set(1e-30f));
     const vf end = rest * vf_rsqrt_fair(rest);
-    const vf front_z = vf_min(vf_fma(s->b_over_a * x, part, z), end);
+    const vf front_z = vf_min(raised_z, end);
     const vf back_z = vf_max(z - thickness, zero - end);
-    const vm there = vm_and(vf_lt(zero, x), vf_lt(back_z, front_z));
+    const vm there = vm_and(rises, vf_lt(back_z, front_z));
     const vi front = vi_from_bit(first_from(s, places, front_x, front_z));
     const vi back = vi_from_bit(first_from(s, places, back_x, back_z));
     const vi bits = vi_select(there, front & ~back, vi_set(0));
@@ -124,13 +151,15 @@ CRV__INLINE vf blocked_share(const crv__group_pixels *at, const crv__list *list,
 {
     const vf zero = vf_zero();
     const int32_t first = k * at->di->steps, last = first + list->counts[k];
-    const float offset = w->noise->sector_offset + 0.754878f * (float)k;
+    float offset = w->noise->sector_offset + 0.754878f * (float)k;
+    offset -= (float)(int32_t)offset;
+    const int32_t uniform = w->params->weighting == CRV_WEIGHTING_UNIFORM;
     const scale places = {.a = vf_set(-0.5f * SECTORS) * w->a * s->inverse,
-                          .b = w->params->weighting == CRV_WEIGHTING_UNIFORM
-                                   ? vf_set(-SECTORS) * s->inverse
-                                   : vf_set(-0.5f * SECTORS) * s->b * s->inverse,
-                          .offset = vf_set(offset - (float)(int32_t)offset),
-                          .uniform = w->params->weighting == CRV_WEIGHTING_UNIFORM};
+                          .b = uniform ? vf_set(-SECTORS) * s->inverse
+                                       : vf_set(-0.5f * SECTORS) * s->b * s->inverse,
+                          .offset = vf_set(offset),
+                          .flat = flatness(w, s, offset, uniform),
+                          .uniform = uniform};
     sectors found = {vi_set(0), vi_set(0), zero, zero, zero, zero};
     for (int32_t i = first; i < last; i++) {
         const crv__sample_place *place = &list->places[i];
@@ -151,6 +180,8 @@ CRV__SLICE_SHAPE(hard, .rule = CRV_THICKNESS_WIDTH, .hard = true)
 CRV__SLICE_SHAPE(hard_border, .rule = CRV_THICKNESS_WIDTH, .hard = true, .border = true)
 CRV__SLICE_SHAPE(soft, .rule = CRV_THICKNESS_WIDTH)
 CRV__SLICE_SHAPE(soft_border, .rule = CRV_THICKNESS_WIDTH, .border = true)
+CRV__SLICE_SHAPE(soft_run, .rule = CRV_THICKNESS_RUN)
+CRV__SLICE_SHAPE(soft_run_border, .rule = CRV_THICKNESS_RUN, .border = true)
 CRV__SLICE_SHAPE(hard_run, .rule = CRV_THICKNESS_RUN, .hard = true)
 CRV__SLICE_SHAPE(hard_run_border, .rule = CRV_THICKNESS_RUN, .hard = true, .border = true)
 
@@ -176,6 +207,8 @@ CRV__INLINE vf accessibility(const crv__group_pixels *at, const crv__list *list)
         return at->at_border ? soft_border(at, list) : soft(at, list);
     if (p->thickness_rule == CRV_THICKNESS_RUN && is_hard)
         return at->at_border ? hard_run_border(at, list) : hard_run(at, list);
+    if (p->thickness_rule == CRV_THICKNESS_RUN)
+        return at->at_border ? soft_run_border(at, list) : soft_run(at, list);
     return general(at, list);
 }
 

@@ -30,7 +30,7 @@ typedef struct crv__slice_view {
 /* What does not change from sample to sample. */
 typedef struct crv__group_slice {
     vf half_Tx, half_Ty, half_cx, half_cy;
-    vf b, b_over_a, cos_tangent, total, inverse;
+    vf b, b_over_a, cos_tangent, sin_tangent, total, inverse;
     vf weight; /* times the total */
 } crv__group_slice;
 
@@ -88,7 +88,8 @@ CRV__INLINE crv__group_slice crv__group_slice_at(const crv__group_pixels *at,
     s.half_cy = half * vf_fma(-s.b_over_a, Ty, at->n.y * w->inverse_a);
     const vf inverse = vf_rsqrt(vf_fma(w->a, w->a, s.b * s.b));
     s.cos_tangent = -s.b * inverse;
-    s.total = crv__lanes_measure(w->params, w->a, s.b, s.cos_tangent, w->a * inverse);
+    s.sin_tangent = w->a * inverse;
+    s.total = crv__lanes_measure(w->params, w->a, s.b, s.cos_tangent, s.sin_tangent);
     const vm counts = vf_lt(vf_set(1e-7f), s.total);
     s.inverse = vf_where(counts, one / s.total);
     s.weight = vf_where(counts, scale * scale * s.total);
