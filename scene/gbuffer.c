@@ -4,10 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
 #define MAX_THREADS 1024
 
 static int refuse(const crv_logger *log, const char *text)
@@ -160,21 +156,6 @@ static bool is_stopped(const scene_gbuffer_request *r)
     return r->stop && atomic_load_explicit(r->stop, memory_order_relaxed);
 }
 
-/* Another row is done. */
-static void tell_row(const scene_gbuffer_request *r, int32_t *done)
-{
-    int32_t rows;
-#ifdef _OPENMP
-    const bool tells = omp_get_thread_num() == 0;
-#pragma omp atomic capture
-#else
-    const bool tells = true;
-#endif
-    rows = ++*done;
-    if (r->watch && tells)
-        r->watch(r->user, rows);
-}
-
 int scene_render_gbuffer(const scene *s, const scene_gbuffer_request *request,
                          scene_gbuffer *out, const crv_logger *log)
 {
@@ -200,7 +181,7 @@ int scene_render_gbuffer(const scene *s, const scene_gbuffer_request *request,
     for (int32_t y = 0; y < height; y++) {
         for (int32_t x = 0; x < g.desc.width && !is_stopped(request); x++)
             cast_pixel(s, request, &axes, &g, x, y);
-        tell_row(request, &done);
+        scene_tell_row(request->watch, request->user, &done);
     }
     if (is_stopped(request)) {
         scene_gbuffer_free(&g);

@@ -38,13 +38,19 @@ bool scene_axes_of_view(const scene_view *view, const double origin[3], scene_ax
  * spaces. */
 void scene_clean_line(char *line);
 
+#ifdef __GNUC__
+#define SCENE_PRINTF(f, a) __attribute__((format(printf, f, a)))
+#else
+#define SCENE_PRINTF(f, a)
+#endif
+
 /* Logs "NAME: text" as one clean line. */
 void scene_log(const crv_logger *log, crv_log_level level, const char *name,
-               const char *format, ...)
-#ifdef __GNUC__
-    __attribute__((format(printf, 4, 5)))
-#endif
-    ;
+               const char *format, ...) SCENE_PRINTF(4, 5);
+
+/* Counts another row that a parallel loop is done with, and tells `watch`, NULL: nobody,
+ * in the calling thread. */
+void scene_tell_row(void (*watch)(void *user, int32_t rows), void *user, int32_t *done);
 
 /* The number of threads for a loop: 0 leaves the choice to OpenMP. */
 int scene_thread_count(int32_t requested);

@@ -67,6 +67,20 @@ int scene_thread_count(int32_t requested)
 #endif
 }
 
+void scene_tell_row(void (*watch)(void *user, int32_t rows), void *user, int32_t *done)
+{
+    int32_t rows;
+#ifdef _OPENMP
+    const bool tells = omp_get_thread_num() == 0;
+#pragma omp atomic capture
+#else
+    const bool tells = true;
+#endif
+    rows = ++*done;
+    if (watch && tells)
+        watch(user, rows);
+}
+
 static void set_bounds(scene *s)
 {
     const mesh *m = &s->mesh;

@@ -197,6 +197,10 @@ typedef struct scene_lighting {
     float key_direction[3]; /* towards it, world space, any length; zero: over the
                                viewer's left shoulder */
     float key_colour[3];    /* zero: none */
+    /* While a picture is lit: told now and then, in the calling thread, how many rows are
+     * done. NULL: nobody. */
+    void (*watch)(void *user, int32_t rows);
+    void *user; /* handed to watch */
 } scene_lighting;
 
 /* The painted sky with a warm key light over the viewer's left shoulder. The members of

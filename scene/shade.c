@@ -176,12 +176,15 @@ int scene_shade(const scene *s, const scene_gbuffer *g, const scene_lighting *li
         return -1;
     }
     prepare(&l, light);
+    int32_t done = 0;
 #ifdef _OPENMP
 #pragma omp parallel for schedule(dynamic, 2) num_threads(scene_thread_count(threads))
 #else
     (void)threads;
 #endif
-    for (int32_t y = 0; y < rgb->height; y++)
+    for (int32_t y = 0; y < rgb->height; y++) {
         shade_row(&l, &given, rgb, y);
+        scene_tell_row(l.light.watch, l.light.user, &done);
+    }
     return 0;
 }

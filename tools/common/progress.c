@@ -78,6 +78,11 @@ void progress_show(progress *p, int64_t done)
                       : spent > SOON_SECONDS && whole > LONG_SECONDS)
         show(p, done, now);
 }
+void progress_rows(void *user, int32_t rows)
+{
+    progress_show(user, rows);
+}
+
 
 void progress_end(progress *p)
 {

@@ -27,6 +27,8 @@ void progress_announce(report *r, const char *name, double seconds);
 progress progress_begin(report *r, const char *name, int64_t from, int64_t total);
 void progress_show(progress *p, int64_t done);
 void progress_end(progress *p);
+/* progress_show() as scene's loops call it; user: the progress. */
+void progress_rows(void *user, int32_t rows);
 
 /* Runs the library's loops on OpenMP's threads, as the library itself does, and says of
  * those that take more than ten seconds how long they will. threads: 0 for all. Zeroed,

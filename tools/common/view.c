@@ -374,11 +374,6 @@ static void announce(const scene *model, const scene_gbuffer_request *request, r
     scene_gbuffer_free(&cast);
 }
 
-static void show_rows(void *user, int32_t rows)
-{
-    progress_show(user, rows);
-}
-
 int view_render(const view_settings *s, const scene *model, bool texture_frames,
                 scene_gbuffer *out, report *r)
 {
@@ -401,7 +396,7 @@ int view_render(const view_settings *s, const scene *model, bool texture_frames,
     report_info(r, "camera: %s", exact_view(model, &request.view, camera));
     announce(model, &request, r);
     progress p = progress_begin(r, "G-buffer", 0, request.height + 2 * request.guard_px);
-    request.watch = show_rows;
+    request.watch = progress_rows;
     request.user = &p;
     const int cast = scene_render_gbuffer(model, &request, out, &r->logger);
     progress_end(&p);

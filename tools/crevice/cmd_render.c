@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "common/estimate.h"
 #include "common/output.h"
+#include "common/progress.h"
 #include "render.h"
 
 /* In the order of SHADE_AO ... */
@@ -219,11 +220,15 @@ static int write_lit(const render_settings *s, const char *path, const stage *li
         result = EXIT_FAILED;
     if (result == EXIT_DONE) {
         const crv_image rgb = io_image_view(&image, 0, 3);
-        if (scene_shade(lit->model, lit->buffers, &lit->light->scene,
-                        ao ? &occlusion : NULL, &rgb, s->view.common.threads.value,
-                        &r->logger)
+        progress p = progress_begin(r, "shading", 0, rgb.height);
+        scene_lighting light = lit->light->scene;
+        light.watch = progress_rows;
+        light.user = &p;
+        if (scene_shade(lit->model, lit->buffers, &light, ao ? &occlusion : NULL, &rgb,
+                        s->view.common.threads.value, &r->logger)
             != 0)
             result = EXIT_FAILED;
+        progress_end(&p);
     }
     if (result == EXIT_DONE)
         result = write_image(s, path, &image, true, r);
