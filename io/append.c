@@ -4,7 +4,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "exr_copy.h"
 
@@ -201,7 +200,7 @@ static int colour_of(const char *channel)
     static const char *const names[] = {"r", "red", "g", "green", "b", "blue"};
     const char *dot = strrchr(channel, '.');
     for (int i = 0; i < 6; i++)
-        if (!strcasecmp(dot ? dot + 1 : channel, names[i]))
+        if (text_is_same(dot ? dot + 1 : channel, names[i]))
             return i / 2;
     return -1;
 }

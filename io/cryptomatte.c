@@ -2,10 +2,8 @@
 #include "cryptomatte.h"
 
 #include <ctype.h>
-#include <fnmatch.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include <cJSON.h>
 
@@ -64,7 +62,7 @@ uint32_t io_cryptomatte_id(const char *name)
 static char *read_sidecar(const matte *m, const char *name)
 {
     io__file file;
-    char *path = io__beside(m->path, name), *text = NULL;
+    char *path = file_beside(m->path, name), *text = NULL;
     if (path && !io__file_open(path, m->log, &file)) {
         if (file.size < MAX_MANIFEST)
             text = calloc((size_t)file.size + 1, 1);
@@ -183,7 +181,7 @@ static int32_t match(matte *m, const layer *from, const char *pattern)
     {
         if (!entry->string
             || (strcmp(pattern, entry->string) != 0
-                && fnmatch(pattern, entry->string, FNM_NOESCAPE) != 0))
+                && !text_fits(entry->string, pattern)))
             continue;
         const bool is_text = cJSON_IsString(entry) && entry->valuestring;
         add_id(m, is_text ? (uint32_t)strtoul(entry->valuestring, NULL, 16)

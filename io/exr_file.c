@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "exr.h"
 
@@ -38,7 +37,7 @@ static int64_t read_at(exr_const_context_t context, void *user, void *buffer,
     io__exr *exr = user;
     (void)context;
     (void)fail;
-    const int64_t done = io__read_at(fileno(exr->file->stream), buffer, size, offset);
+    const int64_t done = file_read_at(exr->file->stream, buffer, size, offset);
     if (done < 0) {
         IO__OMP(atomic write) /* chunks are read by several threads */
         exr->io_error = errno;
@@ -65,7 +64,7 @@ static bool channel_name(const io__exr *exr, const char *part, const char *chann
                          char out[IO_NAME_SIZE])
 {
     const size_t length = part ? strlen(part) : 0;
-    const bool prefixed = length && !strncasecmp(channel, part, length)
+    const bool prefixed = length && text_is_same_start(channel, part, length)
                           && (channel[length] == '.' || channel[length] == '\0');
     int n;
     if (exr->part_count == 1 || !length || prefixed)

@@ -14,7 +14,7 @@ static int64_t write_at(exr_const_context_t context, void *user, const void *buf
     io__exr_sink *sink = user;
     (void)context;
     (void)fail;
-    if (io__write_at(fileno(sink->output->stream), buffer, size, offset)) {
+    if (!file_write_at(sink->output->file.stream, buffer, size, offset)) {
         sink->io_error = errno;
         return -1;
     }

@@ -4,12 +4,8 @@
  * and a line here.
  */
 #include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "internal.h"
 
@@ -19,15 +15,14 @@ static const size_t format_count = sizeof formats / sizeof formats[0];
 
 static const char *extension_of(const char *path)
 {
-    const char *slash = strrchr(path, '/');
-    const char *dot = strrchr(slash ? slash + 1 : path, '.');
+    const char *dot = strrchr(file_name(path), '.');
     return dot ? dot : "";
 }
 
 static const io__format *format_by_extension(const char *path)
 {
     for (size_t i = 0; i < format_count; i++)
-        if (!strcasecmp(extension_of(path), formats[i]->extension))
+        if (text_is_same(extension_of(path), formats[i]->extension))
             return formats[i];
     return NULL;
 }
@@ -58,27 +53,23 @@ bool io_keeps_made(const char *path)
 
 int io__file_open(const char *path, const crv_logger *log, io__file *file)
 {
-    struct stat status;
+    file_facts facts;
     /* Asked before opening, because opening a device can do things; and opened without
      * waiting, because a pipe may have taken the file's place since. */
-    if (stat(path, &status))
+    if (!file_look(path, &facts))
         return io__fail(log, path, "cannot be opened (%s); check the name",
                         strerror(errno));
-    if (S_ISDIR(status.st_mode))
+    if (facts.is_folder)
         return io__fail(log, path, "is a folder; name a file in it");
-    if (!S_ISREG(status.st_mode))
+    if (!facts.is_regular)
         return io__fail(log, path, "is not a regular file; save the picture to one");
-    if (status.st_size == 0)
+    if (facts.size == 0)
         return io__fail(log, path, "is empty; write it again");
-    const int descriptor = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    FILE *stream = descriptor >= 0 ? fdopen(descriptor, "rb") : NULL;
-    if (!stream && descriptor >= 0)
-        close(descriptor);
+    FILE *stream = file_open(path);
     if (!stream)
         return io__fail(log, path, "cannot be opened (%s); check its permissions",
                         strerror(errno));
-    *file = (io__file){
-        .path = path, .stream = stream, .size = (int64_t)status.st_size, .log = log};
+    *file = (io__file){.path = path, .stream = stream, .size = facts.size, .log = log};
     return 0;
 }
 

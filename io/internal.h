@@ -10,6 +10,9 @@
 #include <stdio.h>
 
 #include "io.h"
+#include "system/file.h"
+#include "system/new_file.h"
+#include "system/text.h"
 
 #if defined(__GNUC__)
 #define IO__PRINTF(f, a) __attribute__((format(printf, f, a)))
@@ -52,29 +55,21 @@ typedef struct io__file {
 size_t io__read(FILE *stream, void *bytes, size_t size);
 size_t io__write(FILE *stream, const void *bytes, size_t size);
 
-/* pread() until `size` bytes or the file's end: the number of bytes, or -1 with errno. */
-int64_t io__read_at(int descriptor, void *bytes, uint64_t size, uint64_t offset);
-/* pwrite() of all bytes: 0, or -1 with errno. */
-int io__write_at(int descriptor, const void *bytes, uint64_t size, uint64_t offset);
-
 /* Half floats by their 16 bits. Rounded to the nearest, ties to even. */
 float io__float_of_half(uint32_t half);
 uint32_t io__half_of_float(float value);
 
-/* A temporary file in the target's folder, open for writing. */
+/* A picture being written. */
 typedef struct io__output {
     const char *path; /* as the caller wrote it, for messages */
-    char *target;     /* links followed; owned */
-    char *temporary;  /* owned */
-    FILE *stream;
+    new_file file;    /* its target has links followed */
     const crv_logger *log;
     bool (*stop)(void); /* io_write_options.stop */
 } io__output;
 
-/* Opens the temporary file. After success, one of commit or discard must follow. */
+/* Opens the temporary file, and removes those that killed processes left beside it. After
+ * success, one of commit or discard must follow. */
 int io__output_open(io__output *output, const char *path, const crv_logger *log);
-/* Brings what was written to disk: 0, or -1 with errno. */
-int io__output_flush(const io__output *output);
 /* Brings the data to disk and puts the file in place of the target. */
 int io__output_commit(io__output *output);
 void io__output_discard(io__output *output);
@@ -87,14 +82,6 @@ int io__output_stopped(const io__output *output);
 /* The file that a path names, links followed, if it can be written; NULL after an error
  * line. The caller frees it. */
 char *io__writable_target(const char *path, const crv_logger *log);
-/* `name` in the folder of `path`, or just `name` if it is absolute. The caller frees it;
- * NULL if memory is missing. */
-char *io__beside(const char *path, const char *name);
-/* Removes the temporary files that killed processes left in a folder, and says so. */
-void io__remove_leftovers(const char *folder, const crv_logger *log);
-
-#define IO__TEMPORARY_PREFIX ".crevice-"
-#define IO__TEMPORARY_SUFFIX ".tmp"
 
 /* Opens a regular file for reading; the caller closes its stream. Logs the error. */
 int io__file_open(const char *path, const crv_logger *log, io__file *file);

@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: MIT */
-#include <ctype.h>
 #include <string.h>
 
 #include "internal.h"
@@ -64,33 +63,6 @@ void io__list_channels(const io_image *image, char *out, size_t size)
     }
 }
 
-static size_t smallest(size_t a, size_t b, size_t c)
-{
-    size_t m = a < b ? a : b;
-    return m < c ? m : c;
-}
-
-/* Levenshtein distance without regard to case. Both shorter than IO_NAME_SIZE. */
-static size_t edit_distance(const char *a, const char *b)
-{
-    size_t row[IO_NAME_SIZE + 1];
-    const size_t columns = strlen(b);
-    for (size_t j = 0; j <= columns; j++)
-        row[j] = j;
-    for (size_t i = 1; a[i - 1]; i++) {
-        size_t diagonal = row[0];
-        row[0] = i;
-        for (size_t j = 1; j <= columns; j++) {
-            const bool same =
-                tolower((unsigned char)a[i - 1]) == tolower((unsigned char)b[j - 1]);
-            const size_t above = row[j];
-            row[j] = smallest(above + 1, row[j - 1] + 1, diagonal + (same ? 0 : 1));
-            diagonal = above;
-        }
-    }
-    return row[columns];
-}
-
 const char *io__nearest_channel(const io_image *image, const char *wanted)
 {
     const char *best = NULL;
@@ -99,7 +71,7 @@ const char *io__nearest_channel(const io_image *image, const char *wanted)
     /* More than half of the name wrong is no typing error. */
     size_t limit = strlen(wanted) / 2 + 1;
     for (int32_t i = 0; i < image->channel_count; i++) {
-        const size_t distance = edit_distance(wanted, image->channels[i].name);
+        const size_t distance = text_distance(wanted, image->channels[i].name);
         if (distance < limit) {
             limit = distance;
             best = image->channels[i].name;

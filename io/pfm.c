@@ -152,7 +152,8 @@ static int write_rows(io__output *output, const io_image *image, const int32_t *
             const io_channel *channel = &image->channels[index[i % channels]];
             store_float(channel->data[(size_t)y * width + i / channels], row + 4 * i);
         }
-        if (io__write(output->stream, row, width * channels * 4) != width * channels * 4)
+        if (io__write(output->file.stream, row, width * channels * 4)
+            != width * channels * 4)
             result = io__output_fail(output);
         else if (io__output_stops(output))
             result = io__output_stopped(output);
@@ -170,7 +171,7 @@ static int write_pfm(io__output *output, const io_image *image,
         io__colour_channels(image, index, output->path, "PFM", output->log);
     if (channels < 0)
         return -1;
-    if (fprintf(output->stream, "%s\n%d %d\n-1.0\n", channels == 3 ? "PF" : "Pf",
+    if (fprintf(output->file.stream, "%s\n%d %d\n-1.0\n", channels == 3 ? "PF" : "Pf",
                 (int)image->width, (int)image->height)
         < 0)
         return io__output_fail(output);

@@ -111,7 +111,7 @@ static int check_chunks(reader *r)
 {
     unsigned char head[8];
     for (uint64_t at = 8; at < (uint64_t)r->file->size;) {
-        const int64_t got = io__read_at(fileno(r->file->stream), head, sizeof head, at);
+        const int64_t got = file_read_at(r->file->stream, head, sizeof head, at);
         r->io_error = got < 0 ? errno : 0;
         if (got < (int64_t)sizeof head)
             break;

@@ -68,11 +68,11 @@ static int write_all(writer *w)
 {
     errno = 0;
     if (setjmp(png_jmpbuf(w->png)))
-        return errno || ferror(w->output->stream)
+        return errno || ferror(w->output->file.stream)
                    ? io__output_fail(w->output)
                    : io__fail(w->output->log, w->output->path,
                               "libpng cannot write it (%s); try .exr", w->message.text);
-    png_set_write_fn(w->png, w->output->stream, write_bytes, flush_nothing);
+    png_set_write_fn(w->png, w->output->file.stream, write_bytes, flush_nothing);
     png_set_user_limits(w->png, CRV_MAX_SIZE, CRV_MAX_SIZE);
     png_set_IHDR(
         w->png, w->info, (png_uint_32)w->image->width, (png_uint_32)w->image->height,

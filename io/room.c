@@ -8,11 +8,11 @@ static int fill(const io__output *output, size_t room)
     static const char zeros[1 << 16];
     while (room > 0) {
         const size_t part = room < sizeof zeros ? room : sizeof zeros;
-        if (io__write(output->stream, zeros, part) != part)
+        if (io__write(output->file.stream, zeros, part) != part)
             return io__output_fail(output);
         room -= part;
     }
-    return io__output_flush(output) ? io__output_fail(output) : 0;
+    return file_sync(output->file.stream) ? 0 : io__output_fail(output);
 }
 
 int io_check_room(const char *path, size_t room, const crv_logger *log)

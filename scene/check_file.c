@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-#define _POSIX_C_SOURCE 200809L
 #include "check_file.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "internal.h"
+#include "system/file.h"
 
 /* The length that a binary glTF states, or 0 for any other file. */
 static uint64_t stated_glb_length(const unsigned char header[12])
@@ -50,15 +49,15 @@ static bool is_ply(const unsigned char header[12])
 bool check_mesh_file(const char *path, const crv_logger *log)
 {
     unsigned char header[12] = {0};
-    struct stat info;
+    file_facts info;
     FILE *file;
-    if (stat(path, &info) != 0)
+    if (!file_look(path, &info))
         return refuse_to_open(path, log);
-    if (S_ISDIR(info.st_mode)) {
+    if (info.is_folder) {
         scene_log(log, CRV_LOG_ERROR, path, "is a folder; name the mesh file in it");
         return false;
     }
-    if (!S_ISREG(info.st_mode)) {
+    if (!info.is_regular) {
         scene_log(log, CRV_LOG_ERROR, path, "is not a file on disk; save the mesh first");
         return false;
     }
@@ -78,10 +77,10 @@ bool check_mesh_file(const char *path, const crv_logger *log)
                   "again");
         return false;
     }
-    if (stated_glb_length(header) > (uint64_t)info.st_size) {
+    if (stated_glb_length(header) > (uint64_t)info.size) {
         scene_log(log, CRV_LOG_ERROR, path,
                   "is truncated (%lld bytes of %llu); copy or export it again",
-                  (long long)info.st_size, (unsigned long long)stated_glb_length(header));
+                  (long long)info.size, (unsigned long long)stated_glb_length(header));
         return false;
     }
     return true;

@@ -4,10 +4,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "check_file.h"
 #include "internal.h"
+#include "system/file.h"
+#include "system/text.h"
 
 enum { GLB_HEADER = 12, GLB_CHUNK = 8 };
 
@@ -81,12 +82,6 @@ static uint32_t word_at(const unsigned char *p)
            | (uint32_t)p[3] << 24;
 }
 
-static bool ends_with(const char *path, const char *extension)
-{
-    const size_t length = strlen(path), tail = strlen(extension);
-    return length > tail && strcasecmp(path + length - tail, extension) == 0;
-}
-
 bool gltf_is(const char *path)
 {
     unsigned char header[GLB_HEADER];
@@ -96,7 +91,7 @@ bool gltf_is(const char *path)
         fclose(file);
     if (got >= 8 && memcmp(header, "glTF", 4) == 0)
         return word_at(header + 4) == 2;
-    if (!ends_with(path, ".gltf"))
+    if (!text_ends_with(path, ".gltf"))
         return false;
     size_t size = 0;
     unsigned char *text = read_whole_file(path, &size);
@@ -198,8 +193,7 @@ static int digit16(char c)
 /* The file beside the model that a URI names, its %20 and the like decoded. */
 static char *path_beside(const gltf *g, const char *uri)
 {
-    const char *slash = strrchr(g->path, '/');
-    const size_t folder = slash ? (size_t)(slash - g->path) + 1 : 0;
+    const size_t folder = (size_t)(file_name(g->path) - g->path);
     char *path = malloc(folder + strlen(uri) + 1);
     if (!path)
         return NULL;

@@ -1,89 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-#define _GNU_SOURCE /* pipe2 */
 #include "import.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <locale.h>
-#include <signal.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-#ifdef __linux__
-#include <sys/prctl.h>
-#endif
 
 #include "gltf.h"
 #include "import_assimp.h"
 #include "internal.h"
-#include "sanitized.h"
+#include "system/clock.h"
+#include "system/process.h"
 
 #define DEFAULT_TIMEOUT_S 600.0
-
-/* Bytes that the child may take: what the machine has, unless the caller says less. */
-static uint64_t memory_limit(const scene_limits *limits)
-{
-    const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
-    if (limits && limits->memory_bytes > 0)
-        return (uint64_t)limits->memory_bytes;
-    return pages > 0 && page > 0 ? (uint64_t)pages * (uint64_t)page : UINT64_MAX;
-}
-
-/* The address space that this process has already: the child inherits it. */
-static uint64_t mapped_bytes(void)
-{
-    unsigned long long pages = 0;
-    FILE *file = fopen("/proc/self/statm", "r");
-    if (file && fscanf(file, "%llu", &pages) != 1)
-        pages = 0;
-    if (file)
-        fclose(file);
-    return (uint64_t)pages * (uint64_t)sysconf(_SC_PAGESIZE);
-}
-
-/* Ends with the parent, writes no core, says nothing of its own on the terminal, takes no
- * more than its share of memory, and is ended by signals: a handler of the host would go
- * on in the host's code. Sanitizers reserve terabytes and have something to say. */
-static void confine(pid_t parent, const scene_limits *limits)
-{
-    static const int ending[] = {SIGINT,  SIGTERM, SIGHUP, SIGQUIT, SIGPIPE,
-                                 SIGSEGV, SIGBUS,  SIGFPE, SIGABRT, SIGILL};
-    const struct rlimit no_core = {0, 0};
-    sigset_t none;
-#ifdef __linux__
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent)
-        _exit(1);
-#else
-    (void)parent;
-#endif
-    sigemptyset(&none);
-    sigprocmask(SIG_SETMASK, &none, NULL);
-    for (size_t i = 0; i < sizeof ending / sizeof *ending; i++) {
-        struct sigaction former;
-        if (sigaction(ending[i], NULL, &former) == 0 && former.sa_handler != SIG_IGN)
-            signal(ending[i], SIG_DFL);
-    }
-    signal(SIGPIPE, SIG_DFL);
-    setrlimit(RLIMIT_CORE, &no_core);
-    setlocale(LC_ALL, "C");
-    if (!SANITIZED) {
-        const uint64_t bytes = memory_limit(limits), mapped = mapped_bytes();
-        const int nowhere = open("/dev/null", O_WRONLY);
-        if (bytes < UINT64_MAX - mapped) {
-            const struct rlimit memory = {(rlim_t)(bytes + mapped),
-                                          (rlim_t)(bytes + mapped)};
-            setrlimit(RLIMIT_AS, &memory);
-        }
-        if (nowhere >= 0) {
-            dup2(nowhere, STDOUT_FILENO);
-            dup2(nowhere, STDERR_FILENO);
-        }
-    }
-}
 
 /* In the child. */
 static int read_model(const char *path, import *out, const crv_logger *log)
@@ -96,16 +23,29 @@ static int read_model(const char *path, import *out, const crv_logger *log)
     return out->mesh.failed ? -1 : 0;
 }
 
-static void run_child(int fd, const char *path)
+/* What the child gets. */
+typedef struct order {
+    const char *path;
+    const scene_limits *limits;
+    pipe_ends ends;
+} order;
+
+static int run_child(void *data)
 {
-    const crv_logger log = import_pipe_logger(&fd);
+    order *o = data;
+    const int64_t memory = o->limits ? o->limits->memory_bytes : 0;
+    const crv_logger log = import_pipe_logger(&o->ends.to);
 import found = {0 };
-    _exit(read_model(path, &found, &log) == 0 && import_pipe_send(fd, &found) ? 0 : 1);
+    pipe_close(o->ends.from);
+    process_confine(memory > 0 ? (uint64_t)memory : 0);
+    return read_model(o->path, &found, &log) == 0 && import_pipe_send(o->ends.to, &found)
+               ? 0
+               : 1;
 }
 
 /* The line for a child that brought neither a result nor an error. */
-static void tell_end(const char *path, import_end end, int status, double timeout,
-                     const crv_logger *log)
+static void tell_end(const char *path, import_end end, const process_end *how,
+                     double timeout, const crv_logger *log)
 {
     static const char cure[] =
         "the file is damaged or too large; export it again, or as glTF";
@@ -114,36 +54,37 @@ static void tell_end(const char *path, import_end end, int status, double timeou
                   "was not read within %g s; the file is damaged, or wants more time: "
                   "simplify it, or allow more",
                   timeout);
-    else if (end == IMPORT_NO_MEMORY
-             || (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL))
+    else if (end == IMPORT_NO_MEMORY || how->was_killed)
         scene_log(log, CRV_LOG_ERROR, path,
                   "takes more memory to read than there is; simplify the model, or "
                   "export it again if it is small");
-    else if (WIFSIGNALED(status))
+    else if (how->signal)
         scene_log(log, CRV_LOG_ERROR, path, "made its importer crash (%s); %s",
-                  strsignal(WTERMSIG(status)), cure);
+                  process_signal_name(how->signal), cure);
     else
         scene_log(log, CRV_LOG_ERROR, path, "made its importer fail; %s", cure);
 }
 
-static int wait_for(pid_t child, int fd, const char *path, const import_wait *wait,
+static int wait_for(process child, int from, const char *path, const import_wait *wait,
                     import *out, const crv_logger *log)
 {
-    int errors = 0, status = 0;
+    int errors = 0;
+    process_end how;
 import found = {0 };
-    const import_end end = import_pipe_receive(fd, wait, &found, &errors, log);
+    const import_end end = import_pipe_receive(from, wait, &found, &errors, log);
     /* What it could still do is of no interest; if it has ended it tells how. */
     if (end != IMPORT_NOTHING)
-        kill(child, SIGKILL);
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR)
-        ;
+        process_kill(child);
+    process_wait(child, &how);
     if (end == IMPORT_DONE && errors == 0) {
         *out = found;
         return 0;
     }
     import_free(&found);
+    if (end != IMPORT_NOTHING)
+        how = (process_end){0};
     if (errors == 0)
-        tell_end(path, end, end == IMPORT_NOTHING ? status : 0, wait->timeout, log);
+        tell_end(path, end, &how, wait->timeout, log);
     return -1;
 }
 
@@ -152,25 +93,18 @@ int import_file(const char *path, const scene_limits *limits, import *out,
 {
     const double timeout =
         limits && limits->timeout_s > 0.0 ? limits->timeout_s : DEFAULT_TIMEOUT_S;
-    const import_wait wait = {import_clock(), timeout, limits};
-    const pid_t parent = getpid();
-    int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0) {
+    const import_wait wait = {clock_seconds(), timeout, limits};
+    order o = {.path = path, .limits = limits};
+    process child;
+    const bool piped = pipe_open(&o.ends);
+    const bool started = piped && process_start(&child, false, run_child, &o);
+    if (!started)
         scene_log(log, CRV_LOG_ERROR, path, "cannot be read (%s); close other programs",
                   strerror(errno));
+    if (!piped)
         return -1;
-    }
-    const pid_t child = fork();
-    if (child == 0) {
-        close(ends[0]);
-        confine(parent, limits);
-        run_child(ends[1], path);
-    }
-    close(ends[1]);
-    if (child < 0)
-        scene_log(log, CRV_LOG_ERROR, path, "cannot be read (%s); close other programs",
-                  strerror(errno));
-    const int result = child < 0 ? -1 : wait_for(child, ends[0], path, &wait, out, log);
-    close(ends[0]);
+    pipe_close(o.ends.to);
+    const int result = started ? wait_for(child, o.ends.from, path, &wait, out, log) : -1;
+    pipe_close(o.ends.from);
     return result;
 }

@@ -45,7 +45,7 @@ typedef enum import_end {
     IMPORT_NO_MEMORY
 } import_end;
 
-/* How long the parent waits, by import_clock(). */
+/* How long the parent waits, by clock_seconds(). */
 typedef struct import_wait {
     double start, timeout;
     const scene_limits *limits; /* whom to tell of it; NULL: nobody */
@@ -55,8 +55,5 @@ typedef struct import_wait {
  * log; *errors counts those of errors. */
 import_end import_pipe_receive(int fd, const import_wait *wait, import *out, int *errors,
                                const crv_logger *log);
-
-/* Seconds on CLOCK_MONOTONIC. */
-double import_clock(void);
 
 #endif

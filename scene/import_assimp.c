@@ -3,7 +3,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include <assimp/cimport.h>
 #include <assimp/config.h>
@@ -12,6 +11,7 @@
 #include "import_memory.h"
 #include "import_shift.h"
 #include "internal.h"
+#include "system/text.h"
 
 #define DEFAULT_ALBEDO 0.8
 #define MAX_NODE_DEPTH 512
@@ -187,18 +187,12 @@ static vec3 vector_of(const struct aiVector3D *v)
     return v3((double)v->x, (double)v->y, (double)v->z);
 }
 
-static bool is_fbx(const char *path)
-{
-    const size_t length = strlen(path);
-    return length > 4 && !strcasecmp(path + length - 4, ".fbx");
-}
-
 /* 0 if the file does not say. assimp has 1 degree for an FBX camera that is described by
  * its focal length alone, which it does not hand on. */
 static float hfov_of(const loader *l, const struct aiCamera *c)
 {
     const bool unsaid =
-        is_fbx(l->path)
+        text_ends_with(l->path, ".fbx")
         && fabs((double)c->mHorizontalFOV * 180.0 / SCENE_PI - 1.0) < 1e-4;
     return c->mHorizontalFOV > 0.0f && !unsaid ? c->mHorizontalFOV : 0.0f;
 }

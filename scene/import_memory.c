@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-#define _POSIX_C_SOURCE 200809L
 #include "import_memory.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "system/file.h"
 
 static size_t read_file(struct aiFile *f, char *out, size_t size, size_t count)
 {
@@ -54,9 +55,8 @@ static struct aiFile *open_file(struct aiFileIO *io, const char *path, const cha
     struct aiFile *f = malloc(sizeof *f);
     FILE *file = NULL;
     if (f && mode[0] == 'r')
-        file = strcmp(path, m->path) == 0
-                   ? fmemopen((void *)(size_t)m->data, m->size, "rb")
-                   : fopen(path, "rb");
+        file = strcmp(path, m->path) == 0 ? file_of_bytes(m->data, m->size)
+                                          : fopen(path, "rb");
     if (!file) {
         free(f);
         return NULL;

@@ -3,17 +3,15 @@
  * Both ends are the same program, so that structs travel as they are. Records: a head,
  * then its bytes. The receiver bounds every size and every index.
  */
-#define _POSIX_C_SOURCE 200809L
 #include "import.h"
 
 #include <errno.h>
-#include <poll.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-#include <unistd.h>
 
 #include "internal.h"
+#include "system/clock.h"
+#include "system/process.h"
 
 enum { RECORD_MESSAGE = 1, RECORD_RESULT = 2, MAX_LINE = 1023, MAX_MESSAGES = 100 };
 enum { FIRST_BYTES = 1 << 20 };
@@ -59,36 +57,14 @@ bool import_add_camera(import *found, const char *name, const scene_camera *like
     return true;
 }
 
-double import_clock(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-static bool send_bytes(int fd, const void *data, size_t size)
-{
-    const char *bytes = data;
-    while (size > 0) {
-        const ssize_t sent = write(fd, bytes, size);
-        if (sent < 0 && errno == EINTR)
-            continue;
-        if (sent <= 0)
-            return false;
-        bytes += sent;
-        size -= (size_t)sent;
-    }
-    return true;
-}
-
 static void send_message(void *user, crv_log_level level, const char *line)
 {
     const size_t length = strlen(line);
     const record head = {.kind = RECORD_MESSAGE,
                          .level = (int32_t)level,
                          .size = length < MAX_LINE ? length : MAX_LINE};
-    if (send_bytes(*(int *)user, &head, sizeof head))
-        send_bytes(*(int *)user, line, (size_t)head.size);
+    if (pipe_write(*(int *)user, &head, sizeof head))
+        pipe_write(*(int *)user, line, (size_t)head.size);
 }
 
 crv_logger import_pipe_logger(int *fd)
@@ -137,14 +113,14 @@ bool import_pipe_send(int fd, const import *found)
 import copy = * found;
     part parts[PART_COUNT];
     list_parts(&copy, &counts, parts);
-    if (!send_bytes(fd, &head, sizeof head) || !send_bytes(fd, &counts, sizeof counts))
+    if (!pipe_write(fd, &head, sizeof head) || !pipe_write(fd, &counts, sizeof counts))
         return false;
     for (int i = 0; i < PART_COUNT; i++)
-        if (!send_bytes(fd, *parts[i].data,
+        if (!pipe_write(fd, *parts[i].data,
                         (size_t)parts[i].count * parts[i].element_size))
             return false;
     for (size_t i = 0; i < m->mask_count; i++)
-        if (!send_bytes(fd, m->masks[i].alpha,
+        if (!pipe_write(fd, m->masks[i].alpha,
                         (size_t)m->masks[i].width * (size_t)m->masks[i].height))
             return false;
     return true;
@@ -154,18 +130,15 @@ static import_end receive_bytes(int fd, const import_wait *wait, void *data, siz
 {
     char *bytes = data;
     while (size > 0) {
-        struct pollfd ready = {.fd = fd, .events = POLLIN};
-        const double now = import_clock(), left = wait->start + wait->timeout - now;
+        const double left = wait->start + wait->timeout - clock_seconds();
         if (left <= 0.0)
             return IMPORT_TIMEOUT;
-        const int found = poll(&ready, 1, left < 1.0 ? (int)(left * 1e3) + 1 : 1000);
+        const int found = pipe_wait(fd, left < 1.0 ? left + 1e-3 : 1.0);
         if (found == 0 && wait->limits && wait->limits->waits)
-            wait->limits->waits(wait->limits->user, import_clock() - wait->start);
+            wait->limits->waits(wait->limits->user, clock_seconds() - wait->start);
         if (found == 0 || (found < 0 && errno == EINTR))
             continue;
-        const ssize_t got = found < 0 ? -1 : read(fd, bytes, size);
-        if (got < 0 && errno == EINTR)
-            continue;
+        const int64_t got = found < 0 ? -1 : pipe_read(fd, bytes, size);
         if (got <= 0)
             return IMPORT_NOTHING;
         bytes += got;

@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-#define _POSIX_C_SOURCE 200809L
 #include "import_shift.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "check_file.h"
+#include "system/text.h"
 
 /* Text that grows. */
 typedef struct text {
@@ -291,9 +290,8 @@ static char *shift_ply(char *data, mesh *m, size_t *size)
 
 char *import_shift(const char *path, mesh *m, size_t *size)
 {
-    const char *dot = strrchr(path, '.');
-    const bool obj = dot && strcasecmp(dot, ".obj") == 0;
-    if (!obj && (!dot || strcasecmp(dot, ".ply") != 0))
+    const bool obj = text_ends_with(path, ".obj");
+    if (!obj && !text_ends_with(path, ".ply"))
         return NULL;
     char *data = (char *)read_whole_file(path, size);
     if (!data)

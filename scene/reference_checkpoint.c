@@ -4,17 +4,14 @@
  * hash over all of it. In the machine's own byte order; one of another machine is refused
  * as damaged.
  */
-#define _POSIX_C_SOURCE 200809L
-
 #include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "reference_internal.h"
+#include "system/file.h"
+#include "system/new_file.h"
 
 /* Changes with everything that changes results, so that two versions never share one
  * picture. */
@@ -102,32 +99,14 @@ static bool write_all(reference *r, FILE *file)
     uint64_t sum = checksum(&header, r->accessibility, size);
     return fwrite(&header, sizeof header, 1, file) == 1
            && fwrite(r->accessibility, size, 1, file) == 1
-           && fwrite(&sum, sizeof sum, 1, file) == 1 && !fflush(file)
-           && !fsync(fileno(file));
+           && fwrite(&sum, sizeof sum, 1, file) == 1;
 }
 
 static int fail(const crv_logger *log, const char *path, int reason)
 {
     scene_log(log, CRV_LOG_ERROR, path, "cannot be written (%s); %s",
-              reason ? strerror(reason) : "unknown reason",
-              reason == ENOSPC  ? "free some space"
-              : reason == EFBIG ? "raise the limit on the size of files (ulimit -f)"
-                                : "choose another place");
+              reason ? strerror(reason) : "unknown reason", new_file_cure(reason));
     return -1;
-}
-
-/* What a killed run left is replaced; a link that somebody put there is not followed. */
-static FILE *open_new(const char *path)
-{
-    remove(path);
-    errno = 0;
-    const int descriptor = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    FILE *file = descriptor >= 0 ? fdopen(descriptor, "wb") : NULL;
-    if (descriptor >= 0 && !file) {
-        close(descriptor);
-        remove(path);
-    }
-    return file;
 }
 
 static int refuse(const crv_logger *log, const char *path, const char *text)
@@ -141,31 +120,18 @@ static const char no_checkpoint[] =
 
 int reference_save(reference *r, const char *path, const crv_logger *log)
 {
-    size_t length = strlen(path);
-    char *temporary = malloc(length + sizeof ".tmp");
-    if (r->falloffs) {
-        free(temporary);
+    new_file file;
+    if (r->falloffs)
         return refuse(log, path, no_checkpoint);
+    errno = 0;
+    if (!new_file_open(&file, path))
+        return fail(log, path, errno);
+    if (!write_all(r, file.stream)) {
+        const int reason = errno;
+        new_file_discard(&file);
+        return fail(log, path, reason);
     }
-    if (!temporary)
-        return fail(log, path, ENOMEM);
-    memcpy(temporary, path, length);
-    memcpy(temporary + length, ".tmp", sizeof ".tmp");
-    FILE *file = open_new(temporary);
-    bool written = file && write_all(r, file);
-    int reason = errno;
-    if (file && fclose(file) && written) {
-        written = false;
-        reason = errno;
-    }
-    if (written && rename(temporary, path)) {
-        written = false;
-        reason = errno;
-    }
-    if (file && !written)
-        remove(temporary);
-    free(temporary);
-    return written ? 0 : fail(log, path, reason);
+    return new_file_commit(&file) ? 0 : fail(log, path, errno);
 }
 
 /* values: as many bytes as the reference holds. */
@@ -189,24 +155,9 @@ static int read_all(reference *r, FILE *file, const char *path, checkpoint_heade
     return 0;
 }
 
-/* NULL also for what is no file: nobody may ever write to a pipe. */
-static FILE *open_file(const char *path)
-{
-    struct stat status;
-    const int descriptor = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    if (descriptor < 0)
-        return NULL;
-    FILE *file = !fstat(descriptor, &status) && S_ISREG(status.st_mode)
-                     ? fdopen(descriptor, "rb")
-                     : NULL;
-    if (!file)
-        close(descriptor);
-    return file;
-}
-
 int reference_load(reference *r, const char *path, const crv_logger *log)
 {
-    FILE *file = open_file(path);
+    FILE *file = file_open(path); /* nobody may ever write to a pipe */
     float *values = malloc(value_bytes(r));
     checkpoint_header header;
     int result = -1;

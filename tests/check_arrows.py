@@ -20,11 +20,12 @@ ROOMS = {
                 "src/cpu/simd", "src/cpu/kernels"},
     "src/vulkan": {"include/crevice", "src/base", "src/core", "src/shared"},
     "src/backends.c": {"src/core"},
-    "io": {"include/crevice"},
-    "scene": {"include/crevice"},
-    "tools/common": {"include/crevice", "io", "scene"},
-    "tools/crevice": {"include/crevice", "io", "scene", "tools/common"},
-    "tools/view": {"include/crevice", "io", "scene", "tools/common"},
+    "io/system": set(),
+    "io": {"include/crevice", "io/system"},
+    "scene": {"include/crevice", "io/system"},
+    "tools/common": {"include/crevice", "io", "io/system", "scene"},
+    "tools/crevice": {"include/crevice", "io", "io/system", "scene", "tools/common"},
+    "tools/view": {"include/crevice", "io", "io/system", "scene", "tools/common"},
     "python": {"include/crevice"},
     "examples": {"include/crevice"},
 }
@@ -70,6 +71,13 @@ OWNED = {
     r"gtk/": ("tools/view",),
     r"Python\.h": ("python",),
 }
+
+# Headers of operating systems, which are for the layers over them alone.
+POSIX = re.compile(r"(sys|linux|net|netinet|arpa)/|(dirent|dlfcn|fcntl|fnmatch|ftw|glob|grp"
+                   r"|libgen|poll|pthread|pwd|sched|semaphore|signal|spawn|strings|syslog"
+                   r"|termios|unistd|wordexp|windows|process|io|direct)\.h$")
+LAYERS = ("io/system", "src/base")
+LOADER = ("src/vulkan", ("dlfcn.h", "windows.h"))  # opens the system's Vulkan loader
 
 # Headers that the build makes, and their rooms.
 GENERATED = {"crevice_shaders.h": "src/vulkan", "crevice_sets.h": "src/cpu",
@@ -119,6 +127,9 @@ def fault_of(root, path, name, quoted):
         return f"includes <{name}>, which {room}/ may not"
     if name.startswith("vulkan/") and room not in ("src/vulkan", "include/crevice", "examples"):
         return f"includes <{name}>, which belongs to src/vulkan/"
+    if POSIX.match(name) and room not in LAYERS and not (room == LOADER[0]
+                                                         and name in LOADER[1]):
+        return f"includes <{name}>, which belongs to io/system/ and src/base/"
     for pattern, owners in OWNED.items():
         if re.match(pattern, name) and not (room + "/").startswith(owners):
             rooms = " and ".join(owner.rstrip("/") + "/" for owner in owners)

@@ -8,6 +8,7 @@ target_link_libraries(crevice_io_support
     PRIVATE crevice_flags
     PUBLIC crevice_io OpenEXR::OpenEXRCore PNG::PNG PkgConfig::CMOCKA ${CREVICE_LIBM})
 
+crevice_test(test_system SOURCES test_system.c LIBS crevice_io_support)
 crevice_test(test_io_exr SOURCES test_io_exr.c LIBS crevice_io_support)
 crevice_test(test_io_append SOURCES test_io_append.c LIBS crevice_io_support)
 crevice_test(test_views SOURCES test_views.c LIBS crevice_io_support)

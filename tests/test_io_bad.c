@@ -293,7 +293,7 @@ static void test_full_disk(void **state)
         assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
         signal(SIGXFSZ, SIG_DFL);
         assert_int_equal(result, -1);
-        support_expect_error(path, "free some space");
+        support_expect_error(path, "raise the limit on the size of files");
         size_t size = 0;
         unsigned char *data = support_read_file(path, &size);
         assert_int_equal(size, 6);

@@ -3,12 +3,18 @@
  * The same bits for any number of threads and any interruption; checkpoints that are
  * damaged or of something else.
  */
+#define _POSIX_C_SOURCE 200809L
 #include "reference.h"
+#include "system/file.h"
+#include "system/new_file.h"
+#include "system/process.h"
 #include "test_scene_support.h"
 
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 
 enum { WIDTH = 40, HEIGHT = 30, PIXELS = WIDTH * HEIGHT };
 
@@ -208,6 +214,47 @@ static void test_unwritable(void **state)
     close_fixture(&f);
 }
 
+typedef struct saving {
+    reference *r;
+    const char *path;
+} saving;
+
+/* The limit on file sizes ends it in the middle of the file. */
+static int save_until_killed(void *user)
+{
+    const saving *s = user;
+    const struct rlimit small = {1000, 1000}, no_core = {0, 0};
+    signal(SIGXFSZ, SIG_DFL);
+    setrlimit(RLIMIT_CORE, &no_core);
+    setrlimit(RLIMIT_FSIZE, &small);
+    return reference_save(s->r, s->path, NULL);
+}
+
+/* What a killed run leaves is found by the next that writes there, whatever it writes. */
+static void test_killed(void **state)
+{
+    fixture f = open_fixture(REFERENCE_FULL);
+    reference *r = make(&f);
+    saving s = {.r = r, .path = f.path};
+    process child;
+    process_end end;
+    (void)state;
+    reference_advance(r, 500, 1);
+    assert_int_equal(reference_save(r, f.path, NULL), 0);
+    char *folder = file_beside(f.path, ".");
+    assert_non_null(folder);
+    assert_int_equal(new_file_remove_leftovers(folder), 0);
+    assert_true(process_start(&child, false, save_until_killed, &s));
+    assert_true(process_wait(child, &end));
+    assert_int_equal(end.signal, SIGXFSZ);
+    assert_int_equal(reference_load(r, f.path, NULL), 0); /* as it was before */
+    assert_int_equal(new_file_remove_leftovers(folder), 1);
+    free(folder);
+    assert_int_equal(remove(f.path), 0);
+    reference_free(r);
+    close_fixture(&f);
+}
+
 /* Options that make no reference. */
 static void test_options(void **state)
 {
@@ -233,9 +280,10 @@ static void test_options(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_threads),    cmocka_unit_test(test_resume),
-        cmocka_unit_test(test_foreign),    cmocka_unit_test(test_damaged),
-        cmocka_unit_test(test_unwritable), cmocka_unit_test(test_options)};
+        cmocka_unit_test(test_threads), cmocka_unit_test(test_resume),
+        cmocka_unit_test(test_foreign), cmocka_unit_test(test_damaged),
+        cmocka_unit_test(test_killed),  cmocka_unit_test(test_unwritable),
+        cmocka_unit_test(test_options)};
     int result = cmocka_run_group_tests(tests, NULL, NULL);
     remove_files(NULL);
     return result;

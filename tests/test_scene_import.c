@@ -3,7 +3,7 @@
  * Files on which readers crash, hang or take all memory: each ends as one error line.
  */
 #define _POSIX_C_SOURCE 200809L
-#include "sanitized.h"
+#include "system/sanitized.h"
 #include "test_scene_support.h"
 
 #include <signal.h>

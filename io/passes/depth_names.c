@@ -2,7 +2,6 @@
 /* depth_names.c: which channel is depth. */
 #include <ctype.h>
 #include <string.h>
-#include <strings.h>
 
 #include "internal.h"
 #include "names.h"
@@ -20,7 +19,8 @@ static bool has_sibling(const io_image *image, const char *name, const char *let
     const size_t length = dot ? (size_t)(dot - name) + 1 : 0;
     for (int32_t i = 0; i < image->channel_count; i++) {
         const char *other = image->channels[i].name;
-        if (!strncasecmp(other, name, length) && !strcasecmp(other + length, letter))
+        if (text_is_same_start(other, name, length)
+            && text_is_same(other + length, letter))
             return true;
     }
     return false;
@@ -29,7 +29,7 @@ static bool has_sibling(const io_image *image, const char *name, const char *let
 static int component_rank(const char *component)
 {
     for (size_t c = 0; c < COUNT(depth_components); c++)
-        if (!strcasecmp(component, depth_components[c]))
+        if (text_is_same(component, depth_components[c]))
             return (int)c;
     return -1;
 }
@@ -72,7 +72,7 @@ static bool is_of_vector(const io_image *image, const char *name)
         return false;
     for (int32_t i = 0; i < image->channel_count; i++) {
         snprintf(other, sizeof other, "%s", image->channels[i].name);
-        if (strlen(other) == length && !strncasecmp(other, name, length - 1)
+        if (strlen(other) == length && text_is_same_start(other, name, length - 1)
             && strchr("Xx", other[length - 1]))
             return true;
     }
@@ -82,8 +82,8 @@ static bool is_of_vector(const io_image *image, const char *name)
 static int depth_rank(const io_image *image, const char *name)
 {
     const io__pieces s = io__split_channel(name, true);
-    const bool is_z = !strcasecmp(s.component, "Z");
-    if (!strcasecmp(name, "Z"))
+    const bool is_z = text_is_same(s.component, "Z");
+    if (text_is_same(name, "Z"))
         return 0;
     /* Of a vector. */
     if ((is_z && has_sibling(image, name, "X")) || is_of_vector(image, name))
@@ -96,7 +96,7 @@ static int depth_rank(const io_image *image, const char *name)
     /* "Anything.Z" is depth; Blender's mist is not. */
     if (is_z && !io__same_text(s.layer, s.layer_length, "mist"))
         return IO__ANY_Z;
-    if (image->channel_count == 1 && (!strcasecmp(name, "Y") || !strcasecmp(name, "V")))
+    if (image->channel_count == 1 && (text_is_same(name, "Y") || text_is_same(name, "V")))
         return IO__ONLY_CHANNEL;
     return IO__NO_MATCH;
 }
@@ -133,7 +133,8 @@ static const char *find_depth(const char *path, const io_image *probed,
         const int rank = depth_rank(probed, name);
         /* Further layers of ours are no rivals of the first. */
         if (strlen(name) == 8
-            && (!strncasecmp(name, "layer", 5) || !strncasecmp(name, "solid", 5)))
+            && (text_is_same_start(name, "layer", 5)
+                || text_is_same_start(name, "solid", 5)))
             continue;
         if (rank < best_rank) {
             second = best;
@@ -170,7 +171,7 @@ int io__choose_depth(const char *path, const io_image *probed,
     if (out->position[0])
         return 0;
     if (!wanted && out->depth[0] && io_keeps_windows(path)
-        && !strcasecmp(out->depth[0], "Y"))
+        && text_is_same(out->depth[0], "Y"))
         return io__fail(log, path,
                         "its only channel, Y, is luminance by the rules of EXR; if it is "
                         "depth, %s",
@@ -183,7 +184,7 @@ int io__choose_depth(const char *path, const io_image *probed,
         return io__fail(log, path, "no channel looks like depth (there are: %s); %s",
                         list, depth_remedy(request));
     }
-    if (strcasecmp(out->depth[0], "Z"))
+    if (!text_is_same(out->depth[0], "Z"))
         return 0;
     const bool solid =
         io__find_name(probed, "solid2.Z") && !io__find_name(probed, "layer2.Z");

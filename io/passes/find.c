@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /* find.c: passes by their usual names, without a word about it. */
 #include <string.h>
-#include <strings.h>
 
 #include "names.h"
 #include "passes.h"
 #include "pieces.h"
+#include "system/text.h"
 
 /* Whether a name begins or ends with the word "AO". */
 static bool has_ao(const char *layer, size_t length)
 {
     return length > 3
-           && ((!strncasecmp(layer, "ao", 2) && strchr("_- ", layer[2]))
-               || (!strncasecmp(layer + length - 2, "ao", 2)
+           && ((text_is_same_start(layer, "ao", 2) && strchr("_- ", layer[2]))
+               || (text_is_same_start(layer + length - 2, "ao", 2)
                    && strchr("_- ", layer[length - 3])));
 }
 
@@ -22,7 +22,7 @@ static int ao_rank_of(const char *name, bool with_component)
     const io__pieces s = io__split_channel(name, with_component);
     int component = 0;
     while (with_component && component < 3
-           && strcasecmp(s.component, components[component]) != 0)
+           && !text_is_same(s.component, components[component]))
         component++;
     if (component == 3 || (with_component && !s.component[0]))
         return IO__NO_MATCH;
@@ -79,8 +79,8 @@ int io_find_pass(const io_image *probed, io_pass_kind kind, const char *found[3]
     if (io__choose_depth("", probed, &request, &names, NULL))
         return 0;
     /* A lone Y may be anything. */
-    if (kind == IO_PASS_DEPTH && !names.position[0] && strcasecmp(names.depth[0], "Y")
-        && strcasecmp(names.depth[0], "V")) {
+    if (kind == IO_PASS_DEPTH && !names.position[0] && !text_is_same(names.depth[0], "Y")
+        && !text_is_same(names.depth[0], "V")) {
         found[0] = names.depth[0];
         return 1;
     }

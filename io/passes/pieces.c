@@ -8,20 +8,21 @@
 
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
+
+#include "system/text.h"
 
 #define COUNT(a) (sizeof(a) / sizeof(a)[0])
 
 bool io__same_text(const char *a, size_t length, const char *b)
 {
-    return strlen(b) == length && !strncasecmp(a, b, length);
+    return strlen(b) == length && text_is_same_start(a, b, length);
 }
 
 bool io__contains(const char *text, size_t length, const char *word)
 {
     const size_t size = strlen(word);
     for (size_t i = 0; i + size <= length; i++)
-        if (!strncasecmp(text + i, word, size))
+        if (text_is_same_start(text + i, word, size))
             return true;
     return false;
 }
@@ -83,7 +84,7 @@ int io__row_of(const io__pieces *s, io_pass_kind kind)
 const char *io__find_name(const io_image *image, const char *name)
 {
     for (int32_t i = 0; i < image->channel_count; i++)
-        if (!strcasecmp(image->channels[i].name, name))
+        if (text_is_same(image->channels[i].name, name))
             return image->channels[i].name;
     return NULL;
 }

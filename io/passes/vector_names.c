@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* vector_names.c: which layers are normals and positions. */
 #include <string.h>
-#include <strings.h>
 
 #include "internal.h"
 #include "names.h"
@@ -72,9 +71,9 @@ static bool is_together(const io__pass_names *chosen, const char *name,
     const bool named =
         base || !s.component[0] || io__depth_name_rank(depth, true) < IO__NO_MATCH;
     const size_t prefix = named ? s.prefix : s.prefix + s.layer_length + 1;
-    return prefix == normal->prefix && !strncasecmp(name, depth, prefix)
+    return prefix == normal->prefix && text_is_same_start(name, depth, prefix)
            && s.view_length == normal->view_length
-           && !strncasecmp(s.view, normal->view, s.view_length);
+           && text_is_same_start(s.view, normal->view, s.view_length);
 }
 
 static int normal_rank(const char *name, size_t length, const io__pass_names *chosen)
@@ -124,7 +123,7 @@ int io__choose_normals(const char *path, const io_image *probed,
         find_normals(path, probed, request, out, log);
         return 0;
     }
-    if (!strcasecmp(wanted, "none"))
+    if (text_is_same(wanted, "none"))
         return 0;
     if (io_image_find(probed, wanted))
         return io__fail(log, path,

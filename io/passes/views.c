@@ -2,7 +2,6 @@
 #include "views.h"
 
 #include <string.h>
-#include <strings.h>
 
 #include "internal.h"
 #include "pieces.h"
@@ -20,7 +19,7 @@ bool io_channel_is_of_view(const io_channel *channel, const char *view,
                            char plain[IO_NAME_SIZE])
 {
     const char *piece = view_piece(channel->name, view);
-    if (channel->view[0] ? strcasecmp(channel->view, view) != 0 : !piece)
+    if (channel->view[0] ? !text_is_same(channel->view, view) : !piece)
         return false;
     if (piece)
         snprintf(plain, IO_NAME_SIZE, "%.*s%s", (int)(piece - channel->name),

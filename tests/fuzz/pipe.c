@@ -6,6 +6,7 @@
 
 #include "import.h"
 #include "scene/internal.h"
+#include "system/clock.h"
 
 /* A pipe holds 64 KiB, so that nobody waits. */
 enum { MAX_BYTES = 65536 };
@@ -19,7 +20,7 @@ import found = {0 };
     FUZZ_CHECK(!pipe(ends), "no pipe");
     FUZZ_CHECK(write(ends[1], data, size) == (ssize_t)size, "a short write");
     close(ends[1]);
-    const import_wait wait = {import_clock(), 5.0, NULL};
+    const import_wait wait = {clock_seconds(), 5.0, NULL};
     const import_end end =
         import_pipe_receive(ends[0], &wait, &found, &errors, &fuzz_logger);
     close(ends[0]);

@@ -6,24 +6,18 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
-#include <sys/stat.h>
 
 #include "camera_parse.h"
+#include "system/file.h"
+#include "system/text.h"
 
 enum { LARGEST = 64 << 20 /* bytes; a camera takes a few hundred */ };
 
 const char *const camera_file_orders[] = {"zxy", "xyz", "xzy", "yxz", "yzx", "zyx", NULL};
 
-static bool ends_with(const char *text, const char *end)
-{
-    const size_t length = strlen(text), size = strlen(end);
-    return length >= size && !strcasecmp(text + length - size, end);
-}
-
 bool camera_file_is_named(const char *path)
 {
-    return ends_with(path, ".json") || ends_with(path, ".chan");
+    return text_ends_with(path, ".json") || text_ends_with(path, ".chan");
 }
 
 bool camera_is_frame(double number)
@@ -55,19 +49,19 @@ static int refuse(const char *path, const char *what, report *r)
 /* The whole file with a zero behind it; the caller frees it. */
 static int read_text(const char *path, char **text, size_t *size, report *r)
 {
-    struct stat info;
-    if (stat(path, &info))
+    file_facts facts;
+    if (!file_look(path, &facts))
         return refuse(path, strerror(errno), r);
-    if (!S_ISREG(info.st_mode))
+    if (!facts.is_regular)
         return refuse(path, "is no regular file; name a file of cameras", r);
-    if (info.st_size > LARGEST)
+    if (facts.size > LARGEST)
         return refuse(path, "is larger than any file of cameras; name another", r);
     FILE *stream = fopen(path, "rb");
     if (!stream)
         return refuse(path, strerror(errno), r);
-    *text = malloc((size_t)info.st_size + 1);
-    *size = *text ? fread(*text, 1, (size_t)info.st_size, stream) : 0;
-    const bool whole = *text && *size == (size_t)info.st_size;
+    *text = malloc((size_t)facts.size + 1);
+    *size = *text ? fread(*text, 1, (size_t)facts.size, stream) : 0;
+    const bool whole = *text && *size == (size_t)facts.size;
     fclose(stream);
     if (!*text)
         return report_no_memory(r);

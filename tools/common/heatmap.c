@@ -1,15 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* Each side is a straight line in CIELAB from white to a dark end of the same lightness,
  * so equal steps of the error are about equal steps to the eye. */
-#define _POSIX_C_SOURCE 200809L
-
 #include "heatmap.h"
 
 #include <math.h>
-#include <string.h>
-#include <strings.h>
 
 #include "output.h"
+#include "system/text.h"
 
 static const double white_lightness = 97.0, end_lightness = 35.0;
 /* a* and b* of the ends: hues 275 and 55 degrees, as saturated as sRGB holds at that
@@ -58,15 +55,9 @@ void heatmap_fill(const float *a, const float *b, const uint8_t *mask, size_t co
     }
 }
 
-static bool ends_in(const char *path, const char *extension)
-{
-    const char *dot = strrchr(path, '.');
-    return dot && strcasecmp(dot, extension) == 0;
-}
-
 int heatmap_check(const char *path, const char *input_a, const char *input_b, report *r)
 {
-    if (!ends_in(path, ".png") && !ends_in(path, ".exr")) {
+    if (!text_ends_with(path, ".png") && !text_ends_with(path, ".exr")) {
         report_error(r, "%s: a heat map is a .png or .exr; give it such a name", path);
         return EXIT_USAGE;
     }
@@ -78,7 +69,7 @@ int heatmap_write(const char *path, const heatmap_source *source, report *r)
 {
     static const char *const names[] = {"R", "G", "B", "error"};
     const io_write_options options = {.srgb = true};
-    const int32_t channels = ends_in(path, ".exr") ? 4 : 3;
+    const int32_t channels = text_ends_with(path, ".exr") ? 4 : 3;
     const size_t count = (size_t)source->width * (size_t)source->height;
     io_image image = {0};
     if (io_image_init(&image, source->width, source->height, names, channels, &r->logger)

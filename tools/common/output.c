@@ -3,7 +3,7 @@
 
 #include <stdio.h>
 
-#include "interrupt.h"
+#include "system/interrupt.h"
 
 /* To bring the bytes to disk; what is not packed then is given up before. */
 enum { GRACE_S = 5 };

@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-#define _POSIX_C_SOURCE 200809L
-
 #include "progress.h"
 
 #include <stdio.h>
-#include <unistd.h>
 
 #ifdef _OPENMP
 #include <omp.h>
 #endif
+
+#include "system/file.h"
 
 #define LINE_SECONDS  10.0 /* between lines if there is no terminal */
 #define SOON_SECONDS  1.0  /* after this time the rest can be estimated */
@@ -48,7 +47,7 @@ progress progress_begin(report *r, const char *name, int64_t from, int64_t total
                       .start = report_seconds(),
                       .from = from,
                       .total = total,
-                      .terminal = isatty(STDERR_FILENO) != 0};
+                      .terminal = file_is_terminal(stderr)};
 }
 
 static void show(progress *p, int64_t done, double now)
@@ -78,11 +77,11 @@ void progress_show(progress *p, int64_t done)
                       : spent > SOON_SECONDS && whole > LONG_SECONDS)
         show(p, done, now);
 }
+
 void progress_rows(void *user, int32_t rows)
 {
     progress_show(user, rows);
 }
-
 
 void progress_end(progress *p)
 {

@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-#define _POSIX_C_SOURCE 200809L
-
 #include "report.h"
 
 #include <stdarg.h>
 #include <stdio.h>
-#include <time.h>
 
 #include "io.h"
+#include "system/clock.h"
 
 enum { LINE_SIZE = 8192 };
 
@@ -110,7 +108,5 @@ int report_no_memory(report *r)
 
 double report_seconds(void)
 {
-    struct timespec now = {0};
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+    return clock_seconds();
 }

@@ -5,12 +5,12 @@
 #include "exact.h"
 #include "nearest.h"
 #include "progress.h"
+#include "system/file.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 static const double degree = 3.14159265358979323846 / 180.0;
 
@@ -172,9 +172,9 @@ int view_load(const view_settings *s, scene **out, report *r)
         .timeout_s = s->import_timeout_s.value, .waits = tell_waiting, .user = &w};
     const char *name = builtin_name(s->model);
     const double start = report_seconds();
-    struct stat info;
-    if (!name && !stat(s->model, &info))
-        progress_announce(r, s->model, (double)info.st_size / READ_BYTES_PER_SECOND);
+    file_facts facts;
+    if (!name && file_look(s->model, &facts))
+        progress_announce(r, s->model, (double)facts.size / READ_BYTES_PER_SECOND);
     const int result = name ? scene_builtin(name, out, &r->logger)
                             : scene_load_limited(s->model, &limits, out, &r->logger);
     if (result != 0)

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "ao_settings.h"
 #include "frame_copy.h"
@@ -9,6 +8,7 @@
 #include "common/camera_file.h"
 #include "common/estimate.h"
 #include "shot.h"
+#include "system/file.h"
 
 /* In the order of crv_layers. */
 static const char *const layer_kinds[] = {"surfaces", "solid", NULL};
@@ -209,16 +209,10 @@ static const char *const examples[] = {
     NULL,
 };
 
-static bool exists(const char *path)
-{
-    struct stat info;
-    return stat(path, &info) == 0;
-}
-
 static const char *frames_mistake(const ao_settings *s, frame_list *list)
 {
     if (!s->frames) {
-        if (frames_places(s->input) > 0 && !exists(s->input))
+        if (frames_places(s->input) > 0 && !file_exists(s->input))
             return "--frames: is missing for a name with a frame number in it; add "
                    "--frames A-B";
         return NULL;

@@ -7,10 +7,10 @@
 
 #include "commands.h"
 #include "common/device.h"
-#include "common/interrupt.h"
 #include "common/option_text.h"
 #include "common/output.h"
 #include "common/progress.h"
+#include "system/interrupt.h"
 #include "tune_work.h"
 
 /* A run of the method, and the runs after it, take no longer after an interrupt. */

@@ -1,44 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-#ifdef __linux__
-#define _GNU_SOURCE
-#else
-#define _XOPEN_SOURCE 700
-#endif
-
 #include "jobs.h"
 
 #include <errno.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
-#include <unistd.h>
-#ifdef __linux__
-#include <sys/prctl.h>
-#endif
 #ifdef _OPENMP
 #include <omp.h>
 #endif
 
-/* A process that is killed takes those that it waits for along, where that is possible;
- * elsewhere they end with their last frame. */
-static void end_with(pid_t parent)
-{
-#ifdef __linux__
-    prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (getppid() != parent)
-        _exit(EXIT_FAILED);
-#else
-    (void)parent;
-#endif
-}
+#include "system/process.h"
 
 void jobs_tell(const job *part, int32_t frame)
 {
-    /* Less than what a pipe takes at once, so that no two tales mix. */
-    while (write(part->told, &frame, sizeof frame) < 0 && errno == EINTR) {
-    }
+    pipe_write(part->told, &frame, sizeof frame);
 }
 
 int32_t jobs_threads(int32_t given, int32_t jobs)
@@ -53,15 +28,9 @@ int32_t jobs_threads(int32_t given, int32_t jobs)
 static void collect(int from, job_failures *failures)
 {
     int32_t frame;
-    for (;;) {
-        const ssize_t size = read(from, &frame, sizeof frame);
-        if (size < 0 && errno == EINTR)
-            continue;
-        if (size != (ssize_t)sizeof frame)
-            return;
+    while (pipe_read(from, &frame, sizeof frame) == (int64_t)sizeof frame)
         if (failures->count < failures->capacity)
             failures->frames[failures->count++] = frame;
-    }
 }
 
 static int compare(const void *a, const void *b)
@@ -76,59 +45,70 @@ static int worse(int a, int b)
     return a > b ? a : b;
 }
 
-static int wait_for(pid_t process, report *r)
+static int wait_for(process child, report *r)
 {
-    int status = 0;
-    while (waitpid(process, &status, 0) < 0)
-        if (errno != EINTR)
-            return EXIT_FAILED;
-    if (WIFEXITED(status))
-        return WEXITSTATUS(status);
+    process_end end;
+    if (!process_wait(child, &end))
+        return EXIT_FAILED;
+    if (!end.signal)
+        return end.code;
     report_error(r,
                  "--jobs: a process was ended by signal %d; start again with "
                  "--skip-existing, and fewer jobs if memory is short",
-                 WTERMSIG(status));
+                 end.signal);
     return EXIT_FAILED;
+}
+
+/* What a child gets. */
+typedef struct assignment {
+    int (*work)(void *user, const job *part);
+    void *user;
+    job part;
+    int unused; /* the end of the pipe that is the parent's */
+} assignment;
+
+static int run_part(void *data)
+{
+    const assignment *a = data;
+    pipe_close(a->unused);
+    const int code = a->work(a->user, &a->part);
+    fflush(NULL);
+    return code;
 }
 
 int jobs_run(int32_t count, int (*work)(void *user, const job *part), void *user,
              job_failures *failures, report *r)
 {
-    int ends[2], result = EXIT_DONE;
-    pid_t *processes = calloc((size_t)count, sizeof *processes);
-    if (!processes)
+    pipe_ends ends;
+    int result = EXIT_DONE;
+    process *children = calloc((size_t)count, sizeof *children);
+    if (!children)
         return report_no_memory(r);
-    if (pipe(ends) != 0) {
-        free(processes);
+    if (!pipe_open(&ends)) {
+        free(children);
         report_error(r, "--jobs: no pipe (%s); leave it out", strerror(errno));
         return EXIT_FAILED;
     }
     fflush(NULL);
-    const pid_t parent = getpid();
     int32_t started = 0;
     for (; started < count; started++) {
-        processes[started] = fork();
-        if (processes[started] < 0)
+        assignment a = {.work = work,
+                        .user = user,
+                        .part = {.slice = started, .count = count, .told = ends.to},
+                        .unused = ends.from};
+        if (!process_start(&children[started], true, run_part, &a))
             break;
-        if (processes[started] == 0) {
-            const job part = {.slice = started, .count = count, .told = ends[1]};
-            end_with(parent);
-            close(ends[0]);
-            const int code = work(user, &part);
-            fflush(NULL);
-            _exit(code);
-        }
     }
-    close(ends[1]);
+    pipe_close(ends.to);
     if (started < count) {
         report_error(r, "--jobs: no process (%s); give fewer", strerror(errno));
         result = EXIT_FAILED;
     }
-    collect(ends[0], failures);
-    close(ends[0]);
+    collect(ends.from, failures);
+    pipe_close(ends.from);
     for (int32_t i = 0; i < started; i++)
-        result = worse(result, wait_for(processes[i], r));
-    free(processes);
+        result = worse(result, wait_for(children[i], r));
+    free(children);
     qsort(failures->frames, (size_t)failures->count, sizeof *failures->frames, compare);
     return result;
 }

@@ -10,11 +10,9 @@
 #include "append.h"
 #include "frame_copy.h"
 
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
-static void
-append(char made[IO_MADE_SIZE], const char *format, ...)
+static void append(char made[IO_MADE_SIZE], const char *format, ...) REPORT_PRINTF;
+
+static void append(char made[IO_MADE_SIZE], const char *format, ...)
 {
     const size_t used = strlen(made);
     va_list arguments;

@@ -1,7 +1,4 @@
 /* SPDX-License-Identifier: MIT */
-#define _XOPEN_SOURCE 700
-
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,6 +12,7 @@
 #include "common/manual.h"
 #include "common/viewer_args.h"
 #include "common/nearest.h"
+#include "system/file.h"
 
 #ifdef _OPENMP
 #include <omp.h>
@@ -169,7 +167,7 @@ int main(int argc, char **argv)
     report r;
     report_init(&r);
     limit_threads(&r);
-    signal(SIGXFSZ, SIG_IGN); /* a limit on file sizes is an error of write() then */
+    file_limit_fails();
     int result = dispatch(argc, argv, &r);
     /* A full disk behind a redirection shows only now. */
     if ((fflush(stdout) != 0 || ferror(stdout)) && result == EXIT_DONE) {

@@ -1,20 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-#define _POSIX_C_SOURCE 200809L
-
 #include "reference_run.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #ifdef _OPENMP
 #include <omp.h>
 #endif
 
-#include "common/interrupt.h"
 #include "common/progress.h"
 #include "io.h"
+#include "system/file.h"
+#include "system/interrupt.h"
 
 #define BATCH_SECONDS      0.25
 #define CHECKPOINT_SECONDS 10.0
@@ -34,7 +32,7 @@ int reference_run_check(reference_run *run, const char *output, bool resume, rep
         return report_no_memory(r);
     memcpy(run->checkpoint, output, length);
     memcpy(run->checkpoint + length, extension, sizeof extension);
-    if (resume || access(run->checkpoint, F_OK) != 0)
+    if (resume || !file_exists(run->checkpoint))
         return EXIT_DONE;
     report_error(r, "%s: holds unfinished work; go on with --resume, or delete it",
                  run->checkpoint);
@@ -55,7 +53,7 @@ static int try_room(reference_run *run, const char *output, report *r)
 
 static int begin(reference_run *run, const char *output, bool resume, report *r)
 {
-    if (resume && access(run->checkpoint, F_OK) == 0) {
+    if (resume && file_exists(run->checkpoint)) {
         if (reference_load(run->work, run->checkpoint, &r->logger) != 0)
             return EXIT_FAILED;
         report_info(r, "%s: resumed at %.1f %%", run->checkpoint,

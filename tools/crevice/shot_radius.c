@@ -2,9 +2,8 @@
 /* shot_radius.c: the radius that a shot chooses. */
 #include "shot_state.h"
 
-#include <sys/stat.h>
-
 #include "common/radius.h"
+#include "system/file.h"
 
 int shot_upload(estimator *e, const io_frame *frame, report *r)
 {
@@ -24,9 +23,8 @@ static void warn_of_part(const shot *t, report *r)
     const int32_t last = frames_at(t->list, frames_count(t->list) - 1);
     const int32_t outside[] = {first - 1, last + 1};
     for (int i = 0; i < 2; i++) {
-        struct stat info;
         if (shot_name_frame(t, outside[i], &paths, r) == EXIT_DONE
-            && stat(paths.input, &info) == 0) {
+            && file_exists(paths.input)) {
             report_warning(r,
                            "--radius: these frames choose their own, and %s is not of "
                            "them; give --radius, or --radius-frame to all parts of a "

@@ -3,10 +3,10 @@
 #include "shot_state.h"
 
 #include <math.h>
-#include <sys/stat.h>
 
 #include "frame_copy.h"
 #include "made.h"
+#include "system/file.h"
 
 /* What the frame of a result has left to those after it. */
 static void take_up(shot *t, const made_state *state)
@@ -29,10 +29,9 @@ static bool is_same_radius(const shot *t, const made_state *state)
 /* Whether a result is there, whole, and made with these settings. */
 bool shot_is_done(shot *t, const char *output, report *r)
 {
-    struct stat info;
     char made[IO_MADE_SIZE], channel[IO_NAME_SIZE];
     made_state state;
-    if (stat(output, &info) != 0)
+    if (!file_exists(output))
         return false;
     shot_name_channel(t, channel);
     const bool whole =

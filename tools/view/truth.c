@@ -1,16 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-#define _POSIX_C_SOURCE 200809L
-
 #include "truth.h"
 
 #include <math.h>
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "common/report.h"
 #include "common/target.h"
+#include "system/monitor.h"
 
 /* Pixels between two looks at the wishes: a few milliseconds. */
 enum { CHUNK = 1024 };
@@ -32,9 +29,7 @@ struct truth {
     int32_t threads;
     void (*changed)(void *user);
     void *user;
-    pthread_t thread;
-    pthread_mutex_t lock;
-    pthread_cond_t wake;
+    monitor *monitor;
     bool quit, hold;
     double rest_until; /* as hold, until then; report_seconds() */
     double told;       /* when changed() was called last */
@@ -136,10 +131,10 @@ static void start_job(truth *t, truth_slot *s, job *j)
     j->b = buffers_hold(s->b);
     options.rays = TRUTH_PASS_RAYS;
     options.seed = 1;
-    pthread_mutex_unlock(&t->lock);
+    monitor_leave(t->monitor);
     if (reference_create(t->model, &j->b->g, &options, &j->work, NULL) != 0)
         j->work = NULL;
-    pthread_mutex_lock(&t->lock);
+    monitor_enter(t->monitor);
     if (!j->work && j->generation == s->generation)
         s->failed = true;
 }
@@ -154,9 +149,9 @@ static bool work_on(truth *t, int index, job *j)
     if (!j->work)
         return false;
     reference *work = j->work;
-    pthread_mutex_unlock(&t->lock);
+    monitor_leave(t->monitor);
     reference_advance(work, CHUNK, t->threads);
-    pthread_mutex_lock(&t->lock);
+    monitor_enter(t->monitor);
     if (j->generation != s->generation)
         return false;
     const bool whole = reference_done(work) == reference_total(work);
@@ -179,43 +174,37 @@ static bool work_on(truth *t, int index, job *j)
 static bool rest(truth *t)
 {
     const double left = t->rest_until - report_seconds();
-    struct timespec until;
     if (!(left > 0.0))
         return false;
-    clock_gettime(CLOCK_REALTIME, &until);
-    const int64_t ns = until.tv_nsec + (int64_t)(left * 1e9);
-    until.tv_sec += (time_t)(ns / 1000000000);
-    until.tv_nsec = (long)(ns % 1000000000);
-    pthread_cond_timedwait(&t->wake, &t->lock, &until);
+    monitor_wait_for(t->monitor, left);
     return true;
 }
 
-static void *run(void *data)
+static void run(void *data)
 {
     truth *t = data;
     job jobs[TRUTH_SLOTS] = {{.generation = -1}, {.generation = -1}};
-    pthread_mutex_lock(&t->lock);
+    monitor_enter(t->monitor);
     while (!t->quit) {
         const int index = next_slot(t);
         for (int i = 0; i < TRUTH_SLOTS; i++)
             if (jobs[i].work && jobs[i].generation != t->slot[i].generation)
                 drop_job(&jobs[i]);
         if (index < 0) {
-            pthread_cond_wait(&t->wake, &t->lock);
+            monitor_wait(t->monitor);
             continue;
         }
         if (rest(t))
             continue;
         if (work_on(t, index, &jobs[index])) {
-            pthread_mutex_unlock(&t->lock);
+            monitor_leave(t->monitor);
             t->changed(t->user);
-            pthread_mutex_lock(&t->lock);
+            monitor_enter(t->monitor);
         }
     }
-    pthread_mutex_unlock(&t->lock);
+    monitor_leave(t->monitor);
     for (int i = 0; i < TRUTH_SLOTS; i++)
         drop_job(&jobs[i]);
-    return NULL;
 }
 
 truth *truth_start(const scene *model, int32_t threads, void (*changed)(void *user),
@@ -228,12 +217,10 @@ truth *truth_start(const scene *model, int32_t threads, void (*changed)(void *us
     t->threads = threads;
     t->changed = changed;
     t->user = user;
-    pthread_mutex_init(&t->lock, NULL);
-    pthread_cond_init(&t->wake, NULL);
-    if (pthread_create(&t->thread, NULL, run, t) == 0)
+    t->monitor = monitor_create();
+    if (t->monitor && monitor_start(t->monitor, run, t))
         return t;
-    pthread_cond_destroy(&t->wake);
-    pthread_mutex_destroy(&t->lock);
+    monitor_free(t->monitor);
     free(t);
     return NULL;
 }
@@ -242,11 +229,11 @@ void truth_stop(truth *t)
 {
     if (!t)
         return;
-    pthread_mutex_lock(&t->lock);
+    monitor_enter(t->monitor);
     t->quit = true;
-    pthread_cond_signal(&t->wake);
-    pthread_mutex_unlock(&t->lock);
-    pthread_join(t->thread, NULL);
+    monitor_wake(t->monitor);
+    monitor_leave(t->monitor);
+    monitor_join(t->monitor);
 }
 
 void truth_free(truth *t)
@@ -255,14 +242,13 @@ void truth_free(truth *t)
         return;
     for (int i = 0; i < TRUTH_SLOTS; i++)
         clear(&t->slot[i]);
-    pthread_cond_destroy(&t->wake);
-    pthread_mutex_destroy(&t->lock);
+    monitor_free(t->monitor);
     free(t);
 }
 
 void truth_want(truth *t, int slot, buffers *b, const reference_options *o)
 {
-    pthread_mutex_lock(&t->lock);
+    monitor_enter(t->monitor);
     truth_slot *s = &t->slot[slot], *first = &t->slot[0];
     if (slot == 1)
         t->shared = b && first->b == b && target_equal(&first->options, o);
@@ -272,23 +258,23 @@ void truth_want(truth *t, int slot, buffers *b, const reference_options *o)
     } else if (s->b != b || !target_equal(&s->options, o)) {
         begin(s, b, o);
     }
-    pthread_cond_signal(&t->wake);
-    pthread_mutex_unlock(&t->lock);
+    monitor_wake(t->monitor);
+    monitor_leave(t->monitor);
 }
 
 void truth_hold(truth *t, bool hold)
 {
-    pthread_mutex_lock(&t->lock);
+    monitor_enter(t->monitor);
     t->hold = hold;
-    pthread_cond_signal(&t->wake);
-    pthread_mutex_unlock(&t->lock);
+    monitor_wake(t->monitor);
+    monitor_leave(t->monitor);
 }
 
 void truth_rest(truth *t, double seconds)
 {
-    pthread_mutex_lock(&t->lock);
+    monitor_enter(t->monitor);
     t->rest_until = report_seconds() + seconds;
-    pthread_mutex_unlock(&t->lock);
+    monitor_leave(t->monitor);
 }
 
 static const truth_slot *slot_of(const truth *t, int slot)
@@ -298,24 +284,24 @@ static const truth_slot *slot_of(const truth *t, int slot)
 
 bool truth_read(truth *t, int slot, const buffers *b, float *out, truth_state *state)
 {
-    pthread_mutex_lock(&t->lock);
+    monitor_enter(t->monitor);
     const truth_slot *s = slot_of(t, slot);
     const bool fits = s->b && s->b == b && !s->failed;
     if (fits) {
         memcpy(out, s->mean, (size_t)b->width * (size_t)b->height * sizeof *out);
         *state = s->state;
     }
-    pthread_mutex_unlock(&t->lock);
+    monitor_leave(t->monitor);
     return fits;
 }
 
 bool truth_progress(truth *t, int slot, truth_state *state)
 {
-    pthread_mutex_lock(&t->lock);
+    monitor_enter(t->monitor);
     const truth_slot *s = slot_of(t, slot);
     const bool wanted = s->b && !s->failed;
     if (wanted)
         *state = s->state;
-    pthread_mutex_unlock(&t->lock);
+    monitor_leave(t->monitor);
     return wanted;
 }

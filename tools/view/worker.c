@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "worker.h"
 
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "system/monitor.h"
 
 /* A picture is on the screen after this time. */
 #define DRAWN_S 0.04
@@ -12,9 +13,7 @@ struct worker {
     engine *engine;
     void (*ready)(void *user);
     void *user;
-    pthread_t thread;
-    pthread_mutex_t lock;
-    pthread_cond_t wake;
+    monitor *monitor;
     bool quit, again;
     wish wish;
     uint64_t asked, served; /* numbers of wishes */
@@ -33,12 +32,12 @@ static bool same_view(const wish *a, const wish *b)
 /* Takes over *s, which replaces a picture that nobody took. */
 static void publish(worker *k, shown *s, uint64_t number)
 {
-    pthread_mutex_lock(&k->lock);
+    monitor_enter(k->monitor);
     shown_free(&k->shown);
     k->shown = *s;
     k->has_shown = true;
     k->shown_number = number;
-    pthread_mutex_unlock(&k->lock);
+    monitor_leave(k->monitor);
     k->ready(k->user);
 }
 
@@ -58,13 +57,13 @@ static void serve(worker *k, const wish *w, uint64_t number, bool again)
         publish(k, &made, number);
 }
 
-static void *run(void *data)
+static void run(void *data)
 {
     worker *k = data;
-    pthread_mutex_lock(&k->lock);
+    monitor_enter(k->monitor);
     while (!k->quit) {
         if (k->asked == k->served && !k->again) {
-            pthread_cond_wait(&k->wake, &k->lock);
+            monitor_wait(k->monitor);
             continue;
         }
         const wish w = k->wish;
@@ -74,13 +73,12 @@ static void *run(void *data)
         k->again = false;
         k->busy = true;
         atomic_store(&k->engine->source->stop, false);
-        pthread_mutex_unlock(&k->lock);
+        monitor_leave(k->monitor);
         serve(k, &w, number, again);
-        pthread_mutex_lock(&k->lock);
+        monitor_enter(k->monitor);
         k->busy = false;
     }
-    pthread_mutex_unlock(&k->lock);
-    return NULL;
+    monitor_leave(k->monitor);
 }
 
 worker *worker_start(engine *e, void (*ready)(void *user), void *user)
@@ -91,12 +89,10 @@ worker *worker_start(engine *e, void (*ready)(void *user), void *user)
     k->engine = e;
     k->ready = ready;
     k->user = user;
-    pthread_mutex_init(&k->lock, NULL);
-    pthread_cond_init(&k->wake, NULL);
-    if (pthread_create(&k->thread, NULL, run, k) == 0)
+    k->monitor = monitor_create();
+    if (k->monitor && monitor_start(k->monitor, run, k))
         return k;
-    pthread_cond_destroy(&k->wake);
-    pthread_mutex_destroy(&k->lock);
+    monitor_free(k->monitor);
     free(k);
     return NULL;
 }
@@ -105,41 +101,40 @@ void worker_stop(worker *k)
 {
     if (!k)
         return;
-    pthread_mutex_lock(&k->lock);
+    monitor_enter(k->monitor);
     k->quit = true;
     atomic_store(&k->engine->source->stop, true);
-    pthread_cond_signal(&k->wake);
-    pthread_mutex_unlock(&k->lock);
-    pthread_join(k->thread, NULL);
+    monitor_wake(k->monitor);
+    monitor_leave(k->monitor);
+    monitor_join(k->monitor);
     shown_free(&k->shown);
-    pthread_cond_destroy(&k->wake);
-    pthread_mutex_destroy(&k->lock);
+    monitor_free(k->monitor);
     free(k);
 }
 
 uint64_t worker_ask(worker *k, const wish *w)
 {
-    pthread_mutex_lock(&k->lock);
+    monitor_enter(k->monitor);
     if (k->busy && !same_view(&k->wish, w))
         atomic_store(&k->engine->source->stop, true);
     k->wish = *w;
     const uint64_t number = ++k->asked;
-    pthread_cond_signal(&k->wake);
-    pthread_mutex_unlock(&k->lock);
+    monitor_wake(k->monitor);
+    monitor_leave(k->monitor);
     return number;
 }
 
 void worker_refresh(worker *k)
 {
-    pthread_mutex_lock(&k->lock);
+    monitor_enter(k->monitor);
     k->again = k->asked > 0;
-    pthread_cond_signal(&k->wake);
-    pthread_mutex_unlock(&k->lock);
+    monitor_wake(k->monitor);
+    monitor_leave(k->monitor);
 }
 
 bool worker_take(worker *k, shown *out, uint64_t *number)
 {
-    pthread_mutex_lock(&k->lock);
+    monitor_enter(k->monitor);
     const bool has = k->has_shown;
     if (has) {
         *out = k->shown;
@@ -147,6 +142,6 @@ bool worker_take(worker *k, shown *out, uint64_t *number)
         k->shown = (shown){0};
         k->has_shown = false;
     }
-    pthread_mutex_unlock(&k->lock);
+    monitor_leave(k->monitor);
     return has;
 }

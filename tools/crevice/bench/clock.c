@@ -1,72 +1,25 @@
 /* SPDX-License-Identifier: MIT */
-#define _GNU_SOURCE
-
 #include "bench/clock.h"
 
 #include <math.h>
-#include <string.h>
-#include <time.h>
-#include <unistd.h>
-
-#ifdef __linux__
-#include <linux/perf_event.h>
-#include <sys/syscall.h>
-#endif
 
 #include "common/quantile.h"
 #include "common/report.h"
+#include "system/clock.h"
 
 enum { RUNS_FEW = 3 };
 #define SHORT_SECONDS 0.1
 
-#ifdef __linux__
-static int open_counter(void)
-{
-    struct perf_event_attr what;
-    memset(&what, 0, sizeof what);
-    what.size = sizeof what;
-    what.type = PERF_TYPE_HARDWARE;
-    what.config = PERF_COUNT_HW_CPU_CYCLES;
-    what.exclude_kernel = 1;
-    what.exclude_hv = 1;
-    what.inherit = 1;
-    return (int)syscall(SYS_perf_event_open, &what, 0, -1, -1, 0UL);
-}
-#else
-static int open_counter(void)
-{
-    return -1;
-}
-#endif
-
-static double read_counter(const bench_clock *c)
-{
-    uint64_t value = 0;
-    if (c->counter < 0 || read(c->counter, &value, sizeof value) != sizeof value)
-        return NAN;
-    return (double)value;
-}
-
-static double cpu_seconds(void)
-{
-    struct timespec now = {0};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 void bench_clock_open(bench_clock *c, int32_t repeats, double seconds)
 {
-    *c = (bench_clock){.counter = open_counter(),
+    *c = (bench_clock){.counter = clock_cycles_open(),
                        .repeats = repeats < BENCH_RUNS_MAX ? repeats : BENCH_RUNS_MAX,
                        .seconds = seconds};
-    if (isnan(read_counter(c)))
-        bench_clock_close(c);
 }
 
 void bench_clock_close(bench_clock *c)
 {
-    if (c->counter >= 0)
-        close(c->counter);
+    clock_cycles_close(c->counter);
     c->counter = -1;
 }
 
@@ -82,11 +35,12 @@ typedef struct sample {
 
 static bool take(const bench_clock *c, bool (*run)(void *data), void *data, sample *out)
 {
-    const double cycles = read_counter(c), cpu = cpu_seconds(), start = report_seconds();
+    const double cycles = clock_cycles_read(c->counter), cpu = clock_cpu_seconds(),
+                 start = report_seconds();
     const bool good = run(data);
     out->seconds = report_seconds() - start;
-    out->cpu = cpu_seconds() - cpu;
-    out->cycles = read_counter(c) - cycles;
+    out->cpu = clock_cpu_seconds() - cpu;
+    out->cycles = clock_cycles_read(c->counter) - cycles;
     return good;
 }
 

@@ -9,7 +9,7 @@
 enum { BENCH_RUNS_MAX = 512 };
 
 typedef struct bench_clock {
-    int counter; /* file descriptor of the cycle counter, -1 if there is none */
+    int counter; /* of cycles, -1 if there is none */
     int32_t repeats;
     double seconds; /* after this time no further run begins */
 } bench_clock;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* interrupt.h: signals that would end the tool wait until a file is whole or work is
  * saved, but not for long. */
-#ifndef TOOL_INTERRUPT_H
-#define TOOL_INTERRUPT_H
+#ifndef CREVICE_SYSTEM_INTERRUPT_H
+#define CREVICE_SYSTEM_INTERRUPT_H
 
 #include <stdbool.h>
 

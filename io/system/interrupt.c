@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-#define _POSIX_C_SOURCE 200809L
-
 #include "interrupt.h"
 
 #include <signal.h>
 #include <stdatomic.h>
-#include <time.h>
 #include <unistd.h>
+
+#include "clock.h"
 
 #define LATE_SECONDS 0.5
 
@@ -17,7 +16,7 @@ static struct sigaction former[HELD_COUNT], former_alarm;
 static volatile sig_atomic_t grace;
 /* The signal, 0: none. Every thread may ask; caught_at is written before it. */
 static atomic_int caught;
-static struct timespec caught_at;
+static volatile double caught_at;
 
 /* Everything that it calls may be called in a handler (POSIX, 2.4.3). */
 static void end_now(int number)
@@ -31,7 +30,7 @@ static void on_signal(int number)
 {
     if (caught != 0)
         end_now(number);
-    clock_gettime(CLOCK_MONOTONIC, &caught_at);
+    caught_at = clock_seconds();
     caught = number;
     alarm((unsigned)grace);
 }
@@ -59,13 +58,7 @@ bool interrupt_waits(void)
 
 bool interrupt_is_late(void)
 {
-    struct timespec now = {0};
-    if (caught == 0)
-        return false;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)(now.tv_sec - caught_at.tv_sec)
-               + 1e-9 * (double)(now.tv_nsec - caught_at.tv_nsec)
-           > LATE_SECONDS;
+    return caught != 0 && clock_seconds() - caught_at > LATE_SECONDS;
 }
 
 void interrupt_release(void)

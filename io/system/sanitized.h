@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* SANITIZED: whether a sanitizer is compiled in. Those reserve so much memory that it
  * cannot be limited. */
-#ifndef CREVICE_SCENE_SANITIZED_H
-#define CREVICE_SCENE_SANITIZED_H
+#ifndef CREVICE_SYSTEM_SANITIZED_H
+#define CREVICE_SYSTEM_SANITIZED_H
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define SANITIZED 1
