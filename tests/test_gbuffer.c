@@ -134,6 +134,26 @@ static void compare_encoding(const fixture *f, const crv_depth_format *format)
     close_bench(&b);
 }
 
+static void encodings_have_names(void **state)
+{
+    (void)state;
+    crv_depth_encoding found = CRV_DEPTH_GL;
+    assert_string_equal(crv_depth_encoding_name(CRV_DEPTH_PLANAR), "planar");
+    assert_string_equal(crv_depth_encoding_name(CRV_DEPTH_NORMALISED_REVERSED),
+                        "normalised-reversed");
+    assert_string_equal(crv_depth_encoding_name(CRV_DEPTH_LOGARITHMIC), "logarithmic");
+    assert_null(crv_depth_encoding_name((crv_depth_encoding)9));
+    assert_null(crv_depth_encoding_name((crv_depth_encoding)-1));
+    for (int i = 0; i <= CRV_DEPTH_LOGARITHMIC; i++) {
+        const char *name = crv_depth_encoding_name((crv_depth_encoding)i);
+        assert_true(crv_depth_encoding_find(name, &found));
+        assert_int_equal(found, i);
+    }
+    assert_false(crv_depth_encoding_find("Planar", &found));
+    assert_false(crv_depth_encoding_find(NULL, &found));
+    assert_int_equal(found, CRV_DEPTH_LOGARITHMIC);
+}
+
 static void every_encoding_gives_the_same_image(void **state)
 {
     (void)state;
@@ -528,6 +548,7 @@ static void a_second_layer_occludes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(encodings_have_names),
         cmocka_unit_test(every_encoding_gives_the_same_image),
         cmocka_unit_test(a_background_threshold_is_kept),
         cmocka_unit_test(strides_are_honoured),

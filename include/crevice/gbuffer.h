@@ -39,6 +39,13 @@ typedef enum crv_depth_encoding {
     CRV_DEPTH_LOGARITHMIC = 8
 } crv_depth_encoding;
 
+/* "planar", "radial", "hardware", "reversed", "disparity", "normalised",
+ * "normalised-reversed", "gl", "logarithmic"; NULL for no such encoding. Thread-safe. */
+CRV_API const char *crv_depth_encoding_name(crv_depth_encoding encoding);
+/* The encoding of that name into *encoding; false for an unknown name or NULL.
+ * Thread-safe. */
+CRV_API bool crv_depth_encoding_find(const char *name, crv_depth_encoding *encoding);
+
 /* Fill it with crv_depth_format_planar(), with crv_depth_format_from_projection() for a
  * depth buffer, or by hand. Reversed with an infinite far plane: CRV_DEPTH_REVERSED,
  * z_near of the projection, z_far INFINITY. */

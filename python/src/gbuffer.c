@@ -6,18 +6,6 @@
 
 static const char *const LAYER_KINDS[] = {"surfaces", "solid", NULL};
 static const char *const SPACES[] = {"view", "world", NULL};
-/* In the order of crv_depth_encoding. */
-static const char *const ENCODINGS[] = {"planar",
-                                        "radial",
-                                        "hardware",
-                                        "reversed",
-                                        "disparity",
-                                        "normalised",
-                                        "normalised-reversed",
-                                        "gl",
-                                        "logarithmic",
-                                        NULL};
-
 static PyObject *gbuffer_new(PyTypeObject *type, PyObject *args, PyObject *kwargs)
 {
     static char *names[] = {"context",    "width", "height", "layers",
@@ -96,7 +84,10 @@ static PyObject *set_depth(PyObject *self, PyObject *args, PyObject *kwargs)
                                      &layer, &encoding, &format.z_near, &format.z_far,
                                      &format.background))
         return NULL;
-    const int kind = word_index(encoding, ENCODINGS, "encoding");
+    const char *words[32] = {NULL};
+    for (int i = 0; i < 31; i++)
+        words[i] = crv_depth_encoding_name((crv_depth_encoding)i);
+    const int kind = word_index(encoding, words, "encoding");
     array a;
     if (kind < 0 || array_read(&a, object, "depth", 1))
         return NULL;

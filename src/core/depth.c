@@ -5,6 +5,35 @@
 #include "core/gbuffer.h"
 
 #include <math.h>
+#include <string.h>
+
+const char *crv_depth_encoding_name(crv_depth_encoding encoding)
+{
+    static const char *const NAMES[] = {
+        [CRV_DEPTH_PLANAR] = "planar",
+        [CRV_DEPTH_RADIAL] = "radial",
+        [CRV_DEPTH_HARDWARE] = "hardware",
+        [CRV_DEPTH_REVERSED] = "reversed",
+        [CRV_DEPTH_DISPARITY] = "disparity",
+        [CRV_DEPTH_NORMALISED] = "normalised",
+        [CRV_DEPTH_NORMALISED_REVERSED] = "normalised-reversed",
+        [CRV_DEPTH_GL] = "gl",
+        [CRV_DEPTH_LOGARITHMIC] = "logarithmic",
+    };
+    return (unsigned)encoding < sizeof NAMES / sizeof NAMES[0] ? NAMES[encoding] : NULL;
+}
+
+bool crv_depth_encoding_find(const char *name, crv_depth_encoding *encoding)
+{
+    for (int i = 0; name && encoding && crv_depth_encoding_name((crv_depth_encoding)i);
+         i++) {
+        if (strcmp(crv_depth_encoding_name((crv_depth_encoding)i), name) == 0) {
+            *encoding = (crv_depth_encoding)i;
+            return true;
+        }
+    }
+    return false;
+}
 
 crv_depth_format crv_depth_format_planar(void)
 {

@@ -31,7 +31,7 @@ const arg_table args_threads = ARG_TABLE("Work", thread_rows);
 
 const char *const args_png_bits[] = {"8", "16", NULL};
 
-enum { FLAGS_MAX = 128 };
+enum { FLAGS_MAX = 128, CHOICES_MAX = 64 };
 
 static bool is_library_option(const char *key)
 {
@@ -98,10 +98,14 @@ static int unknown_flag(const command *c, const char *flag, report *r)
 static int wrong_value(const arg *row, const char *text, report *r)
 {
     char values[256];
-    const char *nearest = NULL;
+    const char *choices[CHOICES_MAX], *nearest = NULL;
+    int32_t count = 0;
     args_describe_values(row, values, sizeof values);
-    if (row->type == ARG_CHOICE)
-        nearest = nearest_name(text, row->choices, -1);
+    while (row->type == ARG_CHOICE && count < CHOICES_MAX && arg_choice(row, count)) {
+        choices[count] = arg_choice(row, count);
+        count++;
+    }
+    nearest = nearest_name(text, choices, count);
     if (nearest)
         report_error(r, "%s: \"%s\" is not one of %s; did you mean %s?", row->name, text,
                      values, nearest);

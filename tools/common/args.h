@@ -59,11 +59,16 @@ typedef struct arg {
     double min, max; /* int and number; inclusive */
     /* NULL-terminated. Of a number: the one word that may stand for it, read as NAN. */
     const char *const *choices;
+    /* The choices, if the library has their names: NULL behind the last. */
+    const char *(*choice_name)(int32_t index);
     const char *unit;
     const char *initial;  /* the default as the user would write it; parsed like it */
     const char *computed; /* in help, if the default depends on the input */
     const char *help;
 } arg;
+
+/* A row's choice of this index; NULL behind the last. */
+const char *arg_choice(const arg *row, int32_t index);
 
 /* In a row: what its value is and where it goes; the range of a number. */
 #define ARG_INTO(type_, settings_, member_)                                              \

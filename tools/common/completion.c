@@ -68,7 +68,8 @@ static values values_of(const arg *row)
     const char *what = row->value ? row->value : row->name;
     values v = {.list = row->type == ARG_TEXTS && row->name[0] == '-'};
     if (row->type == ARG_CHOICE)
-        add_all(&v, row->choices);
+        for (int32_t i = 0; arg_choice(row, i); i++)
+            add(&v, arg_choice(row, i));
     else if (strncmp(what, "METHOD", 6) == 0)
         add_methods(&v);
     else if (strncmp(what, "PRESET", 6) == 0)

@@ -6,17 +6,12 @@
 
 static const double degree = 3.14159265358979323846 / 180.0;
 
-const char *const pass_encodings[] = {"planar",
-                                      "radial",
-                                      "hardware",
-                                      "reversed",
-                                      "disparity",
-                                      "normalised",
-                                      "normalised-reversed",
-                                      "gl",
-                                      "logarithmic",
-                                      NULL};
 const char *const pass_spaces[] = {"find", "view", "world", NULL};
+
+const char *pass_encoding(int32_t index)
+{
+    return crv_depth_encoding_name((crv_depth_encoding)index);
+}
 
 static bool is_linear(const pass_settings *p, bool ortho)
 {

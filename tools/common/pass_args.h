@@ -13,8 +13,8 @@ typedef struct pass_settings {
     arg_number z_near, z_far, background;
 } pass_settings;
 
-extern const char *const pass_encodings[]; /* in the order of crv_depth_encoding */
-extern const char *const pass_spaces[];    /* in the order of io_normal_space */
+const char *pass_encoding(int32_t index); /* of a crv_depth_encoding */
+extern const char *const pass_spaces[];   /* in the order of io_normal_space */
 
 /* What is wrong with them, and what to do; NULL: nothing. ortho: the camera is
  * orthographic. */
@@ -56,7 +56,7 @@ int pass_view_request(const pass_settings *p, const arg_number *vfov_deg,
                  "points down, z for normals that look into the picture"},               \
         {.name = "--depth-encoding",                                                     \
          .value = "KIND",                                                                \
-         .choices = pass_encodings,                                                      \
+         .choice_name = pass_encoding,                                                   \
          .computed = "planar, or radial if the normals fit that",                        \
          ARG_INTO(ARG_CHOICE, settings_, member_.depth_encoding),                        \
          .help = "planar: distance along the viewing axis; radial: from the eye; "       \

@@ -100,10 +100,15 @@ static bool set_size(const char *text, arg_size *out)
            && edge(rest + 1, &rest, &out->height) && *rest == '\0';
 }
 
+const char *arg_choice(const arg *row, int32_t index)
+{
+    return row->choices ? row->choices[index] : row->choice_name(index);
+}
+
 static bool set_choice(const arg *row, const char *text, arg_int *out)
 {
-    for (int32_t i = 0; row->choices[i]; i++) {
-        if (strcmp(text, row->choices[i]) == 0) {
+    for (int32_t i = 0; arg_choice(row, i); i++) {
+        if (strcmp(text, arg_choice(row, i)) == 0) {
             out->value = i;
             return true;
         }
@@ -149,13 +154,13 @@ static void describe_choices(const arg *row, char *out, size_t size)
 {
     size_t used = 0;
     int32_t count = 0;
-    while (row->choices[count])
+    while (arg_choice(row, count))
         count++;
     /* Long lists need places at which a line may break. */
     const char *between = count > 6 ? ", " : "|";
     for (int32_t i = 0; i < count && used < size; i++)
         used += (size_t)snprintf(out + used, size - used, "%s%s", i == 0 ? "" : between,
-                                 row->choices[i]);
+                                 arg_choice(row, i));
 }
 
 void args_describe_values(const arg *row, char *out, size_t size)

@@ -74,7 +74,7 @@ static void append_passes(char out[COMMAND_SIZE], const pass_settings *p)
     if (p->normal_space.given)
         append_text(out, "--normal-space", pass_spaces[p->normal_space.value]);
     if (p->depth_encoding.given)
-        append_text(out, "--depth-encoding", pass_encodings[p->depth_encoding.value]);
+        append_text(out, "--depth-encoding", pass_encoding(p->depth_encoding.value));
     append_number(out, "--near", &p->z_near);
     append_number(out, "--far", &p->z_far);
     append_number(out, "--background", &p->background);
