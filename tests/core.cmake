@@ -31,6 +31,7 @@ if(CREVICE_SANITIZE MATCHES "thread") # the other properties look at one thread'
 endif()
 crevice_test(test_conformance SOURCES test_conformance.c LIBS crevice_fixture
     ARGS ${conformance_arguments})
+crevice_test(test_bent SOURCES test_bent.c LIBS crevice_fixture)
 # More threads than the system can start are not tried.
 add_test(NAME test_ao_many_threads COMMAND test_ao)
 set_tests_properties(test_ao_many_threads PROPERTIES

@@ -38,19 +38,9 @@ static inline bool reference_slice_texel(const crv__params *p,
 static inline float reference_slices_open(const crv__frame *f, int32_t x, int32_t y,
                                           float radius_px, crv__slice_fn blocked_share)
 {
-    const crv__params *p = f->params;
-    const crv__noise_texel *noise = crv__noise_at(f, x, y);
     crv__slice_site site = crv__slice_site_at(f, x, y);
-    site.nearness = radius_px * p->inv_radius * p->inv_fy;
-    float blocked = 0, total = 0;
-    for (int32_t k = 0; k < p->directions; k++) {
-        crv__slice s;
-        if (!crv__slice_at(f, &site, noise, k, &s))
-            continue;
-        blocked += s.weight * s.total * blocked_share(f, &site, &s);
-        total += s.weight * s.total;
-    }
-    return total > 0 ? 1 - blocked / total : 1;
+    site.nearness = radius_px * f->params->inv_radius * f->params->inv_fy;
+    return crv__slices_of(f, &site, blocked_share, NULL);
 }
 
 /* The accessibility of a pixel with this projected radius (vertically). */

@@ -214,7 +214,11 @@ float *fixture_compute(const fixture *f, const crv_options *options,
     const int32_t width = f->width - run->guard_left - run->guard_right;
     const int32_t height = f->height - run->guard_top - run->guard_bottom;
     float *pixels = malloc((size_t)width * (size_t)height * sizeof(float));
-    crv_image result = crv_image_packed(pixels, width, height, 1);
+    crv_result result;
+    assert_int_equal(crv_result_init(&result, sizeof result), CRV_OK);
+    result.accessibility = crv_image_packed(pixels, width, height, 1);
+    if (run->bent)
+        result.bent_normal = crv_image_packed(run->bent, width, height, 3);
 
     crv_gbuffer *gbuffer = NULL;
     crv_plan *plan = NULL;
@@ -222,7 +226,7 @@ float *fixture_compute(const fixture *f, const crv_options *options,
     assert_int_equal(crv_plan_create(context, options, &desc, &plan), CRV_OK);
     assert_int_equal(crv_gbuffer_create(context, &desc, &gbuffer), CRV_OK);
     upload(f, run, gbuffer);
-    assert_int_equal(crv_plan_run(plan, gbuffer, &result), CRV_OK);
+    assert_int_equal(crv_plan_run_result(plan, gbuffer, &result), CRV_OK);
     crv_plan_destroy(plan);
     crv_gbuffer_destroy(gbuffer);
     fixture_context_close(context);

@@ -59,6 +59,7 @@ typedef struct fixture_run {
     int32_t without_normals;
     const float *second_layer;
     const crv_depth_format *format; /* what the fixture's depth holds; NULL: planar */
+    float *bent; /* room for the bent normals, packed; NULL: not wanted */
 } fixture_run;
 
 /* Whether frames are computed on a Vulkan device: CREVICE_TEST_DEVICE is "vulkan". */

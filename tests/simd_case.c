@@ -101,8 +101,10 @@ static void random_options(simd_random *r, crv_options *options)
     for (int32_t i = 0; i < crv_option_count(); i++) {
         const crv_option *option = crv_option_at(i);
         char text[64];
-        /* noise_index: below, so that cases are those from before it. */
+        /* noise_index: below, so that cases are those from before it. bent_normal: the
+         * run's own. */
         if (strcmp(option->key, "radius") == 0 || strcmp(option->key, "noise_index") == 0
+            || strcmp(option->key, "bent_normal") == 0
             || !crv_option_applies(option, options->method, options->filter))
             continue;
         const double value = random_value(r, option);

@@ -494,6 +494,7 @@ static void what_was_built_in_is_told(void **state)
     assert_true(vulkan || status == CRV_ERROR_UNSUPPORTED);
     assert_int_equal(vulkan, CRV_HAS_VULKAN);
     assert_int_equal(crv_struct_size(CRV_STRUCT_OPTIONS), sizeof(crv_options));
+    assert_int_equal(crv_struct_size(CRV_STRUCT_RESULT), sizeof(crv_result));
     assert_int_equal(crv_struct_size(CRV_STRUCT_GBUFFER_DESC), sizeof(crv_gbuffer_desc));
     assert_int_equal(crv_struct_size((crv_struct)99), 0);
 }

@@ -62,7 +62,8 @@ typedef enum crv_struct {
     CRV_STRUCT_DEPTH_FORMAT = 3,
     CRV_STRUCT_GBUFFER_DESC = 4,
     CRV_STRUCT_IMAGE = 5,
-    CRV_STRUCT_OPTIONS = 6
+    CRV_STRUCT_OPTIONS = 6,
+    CRV_STRUCT_RESULT = 7
 } crv_struct;
 
 /* sizeof of the struct in the library that is linked: what its _init takes. 0 for another

@@ -111,8 +111,9 @@ typedef struct crv_plan crv_plan;
  *
  * Memory: 4 bytes for each pixel of the result, 4 more with a filter. Deinterleaved
  * kernels take 4 more for each depth layer, and 0.5 to 16 MiB of tables. Together with
- * the G-buffer that is below 48 bytes a pixel, or 2 MiB of tables above it. A Vulkan
- * device holds images and a staging buffer as well.
+ * the G-buffer that is below 48 bytes a pixel, or 2 MiB of tables above it. Bent normals
+ * take 12 bytes more for each pixel of the result, 24 with a filter. A Vulkan device
+ * holds images and a staging buffer as well.
  *
  * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY; on a Vulkan device UNSUPPORTED if it cannot
  * compute this, and DEVICE if its driver fails.
@@ -130,6 +131,7 @@ CRV_API void crv_plan_destroy(crv_plan *plan);
  *   - another method or noise_size;
  *   - a filter instead of none, or none instead of a filter;
  *   - with a guard band, a filter of another radius;
+ *   - bent_normal 1 if it was 0;
  *   - more or odd directions, steps or samples that take more memory than at first, or
  *     thickness_rule width if it was another;
  *   - on a Vulkan device, all that crv_vulkan_pass_set_options() calls fixed.
@@ -155,6 +157,31 @@ CRV_API crv_status crv_plan_set_options(crv_plan *plan, const crv_options *optio
  */
 CRV_API crv_status crv_plan_run(crv_plan *plan, crv_gbuffer *gbuffer,
                                 const crv_image *result);
+
+/* The images that a run fills. Fill it with crv_result_init(), then set those that are
+ * wanted; data NULL: not wanted. Images must not share memory. */
+typedef struct crv_result {
+    size_t struct_size;      /* set by crv_result_init() */
+    crv_image accessibility; /* as crv_plan_run() has it */
+    /* Three channels of the same size: the bent normal (crv_weighting), view space like
+     * all normals, unit length. Background is (0, 0, 0). */
+    crv_image bent_normal;
+} crv_result;
+
+/* No image is wanted. Pass sizeof *result as struct_size (base.h). Errors:
+ * INVALID_ARGUMENT. Thread-safe. */
+CRV_API crv_status crv_result_init(crv_result *result, size_t struct_size);
+
+/*
+ * crv_plan_run() for any of the images, at least one. Filters weight bent normals as they
+ * do accessibility: the weighted sum, then normalised. Accessibility has the same bits
+ * with and without them. Intensity and contrast do not change them.
+ *
+ * Errors: as crv_plan_run(); INVALID_ARGUMENT if bent normals are wanted of a plan whose
+ * method gives none, or whose option bent_normal is 0.
+ */
+CRV_API crv_status crv_plan_run_result(crv_plan *plan, crv_gbuffer *gbuffer,
+                                       const crv_result *result);
 
 /* Applies the plan's filter to an accessibility image of the result's size, for example
  * one that was computed elsewhere; copies it if the plan has no filter. Values that are

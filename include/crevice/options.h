@@ -15,11 +15,16 @@
 extern "C" {
 #endif
 
-/* How a method weights the hemisphere. w: direction, n: normal, V: 1 if the ray is
- * blocked, else 0, W: falloff. */
+/*
+ * How a method weights the hemisphere. w: direction, n: normal, V: 1 if the ray is
+ * blocked, else 0, W: falloff. A: accessibility. B: bent normal, the direction of the
+ * mean of what is open; n if nothing is open.
+ */
 typedef enum crv_weighting {
-    CRV_WEIGHTING_UNIFORM = 0, /* A = 1 - 1/(2 pi) Int V W dw */
-    CRV_WEIGHTING_COSINE = 1   /* A = 1 - 1/pi Int V W (n.w) dw */
+    /* A = 1 - 1/(2 pi) Int V W dw,   B = norm(Int (1 - V W) w dw) */
+    CRV_WEIGHTING_UNIFORM = 0,
+    /* A = 1 - 1/pi Int V W (n.w) dw,   B = norm(Int (1 - V W) (n.w) w dw) */
+    CRV_WEIGHTING_COSINE = 1
 } crv_weighting;
 
 /* How the weight W of an occluder falls with its distance r. R: radius, q = r / R. W is 0
@@ -97,6 +102,7 @@ typedef struct crv_method {
     crv_weighting weighting;
     const char *const *options; /* keys of the options that it reads, NULL-terminated;
                                    those that every method reads are not listed */
+    int32_t bent_normal;        /* 0 or 1: gives bent normals, see crv_weighting */
 } crv_method;
 
 /* A filter of the registry. Static storage. */
@@ -198,6 +204,11 @@ typedef struct crv_options {
      * temporal antialiasing averages frames: the mean converges fast. Leave it at 0, the
      * default, if nothing averages them, or the noise flickers. */
     int32_t noise_index;
+
+    /* 1: plans have the memory for bent normals, and crv_plan_run_result() computes them
+     * if it is given an image for them. Lighting looks a sky or a probe up along them.
+     * Methods whose crv_method.bent_normal is 1. Default 0. */
+    int32_t bent_normal;
 } crv_options;
 
 /* Sets every option to its default for the named method (NULL: hbao). Pass sizeof

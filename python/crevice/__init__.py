@@ -86,6 +86,7 @@ class Method(typing.NamedTuple):
     paper: str
     hemisphere: str  # "uniform" or "cosine"
     options: typing.List[str]  # keys that it reads beyond those that every method reads
+    bent_normal: bool  # gives bent normals
 
 
 class Filter(typing.NamedTuple):
@@ -157,7 +158,7 @@ def _radius(gbuffer, width, height, camera) -> float:
 def ao(depth, normals=None, *, vfov=None, camera=None, radius=None, method=None,
        preset="medium", filter=None, encoding="planar", near=0.0, far=0.0,
        background=math.inf, normal_space="view", layers=(), layer_kind="surfaces", guard=0,
-       threads=0, exact=False, out=None, **values):
+       threads=0, exact=False, out=None, return_bent_normal=False, **values):
     """Accessibility of one frame: an array of float32, 1 open, 0 occluded.
 
     depth: (rows, columns), float16, float32, float64, uint8, uint16 or int16, any strides.
@@ -177,6 +178,9 @@ def ao(depth, normals=None, *, vfov=None, camera=None, radius=None, method=None,
         right, bottom). The result is smaller by them.
     threads: 0 for all processors. exact: sample exactly where the plain code does.
     out: an array of float32 to write to. Further keywords are options(method).
+    return_bent_normal: returns (accessibility, bent normals). These are float32 (rows,
+        columns, 3), unit vectors in view space along the mean open direction, background
+        0. The method must be one whose Method.bent_normal is True.
 
     Raises Error (InvalidArgument is a ValueError, too) and TypeError. Safe to call from
     several threads at once.
@@ -202,7 +206,10 @@ def ao(depth, normals=None, *, vfov=None, camera=None, radius=None, method=None,
                                   if radius is None else radius))
     if filter is not None:
         texts["filter"] = filter
+    if return_bent_normal:
+        texts["bent_normal"] = "on"
     plan = Plan(gbuffer, method=method, preset=preset, options=texts)
+    size = (rows - guard[1] - guard[3], columns - guard[0] - guard[2])
     if out is None:
-        out = np.empty((rows - guard[1] - guard[3], columns - guard[0] - guard[2]), np.float32)
-    return plan.run(gbuffer, out)
+        out = np.empty(size, np.float32)
+    return plan.run(gbuffer, out, np.empty((*size, 3), np.float32) if return_bent_normal else None)

@@ -41,24 +41,46 @@ static void plan_dealloc(PyObject *self)
     Py_TYPE(self)->tp_free(self);
 }
 
-static PyObject *plan_run(PyObject *self, PyObject *args)
+/* Runs the plan on arrays that are lent. */
+static int run_result(const PlanObject *p, const GBufferObject *gbuffer,
+                      const crv_result *result)
 {
-    PlanObject *p = (PlanObject *)self;
-    GBufferObject *gbuffer;
-    PyObject *object;
-    array a;
-    crv_image image;
-    if (!PyArg_ParseTuple(args, "O!O:run", &GBufferType, &gbuffer, &object)
-        || array_write(&a, &image, object, "out", 1))
-        return NULL;
     context_enter(p->owner);
     crv_status status;
-    Py_BEGIN_ALLOW_THREADS status = crv_plan_run(p->plan, gbuffer->gbuffer, &image);
-    Py_END_ALLOW_THREADS array_release(&a);
-    if (context_leave(p->owner, status))
+    Py_BEGIN_ALLOW_THREADS status =
+        crv_plan_run_result(p->plan, gbuffer->gbuffer, result);
+    Py_END_ALLOW_THREADS return context_leave(p->owner, status);
+}
+
+static PyObject *plan_run(PyObject *self, PyObject *args, PyObject *kwargs)
+{
+    static char *names[] = {"gbuffer", "out", "bent", NULL};
+    PlanObject *p = (PlanObject *)self;
+    GBufferObject *gbuffer;
+    PyObject *out, *bent = Py_None;
+    array a, b;
+    crv_result result;
+    crv_result_init(&result, sizeof result);
+    if (!PyArg_ParseTupleAndKeywords(args, kwargs, "O!O|O:run", names, &GBufferType,
+                                     &gbuffer, &out, &bent)
+        || array_write(&a, &result.accessibility, out, "out", 1))
         return NULL;
-    Py_INCREF(object);
-    return object;
+    const bool with_bent = bent != Py_None;
+    int failed = 0;
+    if (with_bent)
+        failed = array_write(&b, &result.bent_normal, bent, "bent", 3);
+    if (!failed) {
+        failed = run_result(p, gbuffer, &result);
+        if (with_bent)
+            array_release(&b);
+    }
+    array_release(&a);
+    if (failed)
+        return NULL;
+    if (with_bent)
+        return PyTuple_Pack(2, out, bent);
+    Py_INCREF(out);
+    return out;
 }
 
 static PyObject *plan_set_options(PyObject *self, PyObject *values)
@@ -80,11 +102,13 @@ static PyObject *plan_set_options(PyObject *self, PyObject *values)
 }
 
 static PyMethodDef plan_methods[] = {
-    {"run", plan_run, METH_VARARGS,
-     "run(gbuffer, out)\n\nWrites accessibility to a float32 array (rows, columns) of "
-     "the\n"
-     "size inside the guard band, and returns it: 1 open, 0 occluded, background 1.\n"
-     "The interpreter's lock is released meanwhile."},
+    {"run", (PyCFunction)(void (*)(void))plan_run, METH_VARARGS | METH_KEYWORDS,
+     "run(gbuffer, out, bent=None)\n\nWrites accessibility to a float32 array (rows, "
+     "columns) of\n"
+     "the size inside the guard band, and returns it: 1 open, 0 occluded, background 1.\n"
+     "bent: a float32 array (rows, columns, 3) for bent normals, view space, unit\n"
+     "length, background 0; then it returns both. The plan needs the option\n"
+     "bent_normal='on'. The interpreter's lock is released meanwhile."},
     {"set_options", plan_set_options, METH_O,
      "set_options(values)\n\nNew values of options, as texts by key. Unsupported if they "
      "take\na new plan."},

@@ -96,7 +96,8 @@ static PyObject *keys_of(const char *const *keys)
     return list;
 }
 
-/* A method's or filter's row: name, title, paper, hemisphere, keys. */
+/* A method's or filter's row: name, title, paper, hemisphere, keys; methods: whether they
+ * give bent normals. */
 static PyObject *methods(PyObject *module, PyObject *none)
 {
     (void)module;
@@ -106,8 +107,9 @@ static PyObject *methods(PyObject *module, PyObject *none)
         const crv_method *m = crv_method_at(i);
         const char *weighting =
             m->weighting == CRV_WEIGHTING_COSINE ? "cosine" : "uniform";
-        PyObject *row = Py_BuildValue("ssssN", m->name, m->title, m->paper, weighting,
-                                      keys_of(m->options));
+        PyObject *row =
+            Py_BuildValue("ssssNN", m->name, m->title, m->paper, weighting,
+                          keys_of(m->options), PyBool_FromLong(m->bent_normal));
         if (!row || PyList_Append(list, row))
             Py_CLEAR(list);
         Py_XDECREF(row);

@@ -172,6 +172,52 @@ def test_the_registry():
         run(pit(), method=name)
 
 
+def test_bent_normals(plain):
+    # A plane that is tilted by 45 degrees, seen by a parallel camera: its bent normal is its
+    # normal, (0, 1, 1)/sqrt(2) in view space.
+    rows = (np.arange(ROWS) + 0.5 - ROWS / 2) / 20
+    depth = np.broadcast_to((5 - rows)[:, None], (ROWS, COLUMNS)).astype(np.float32)
+    camera = crevice.Camera(20, 20, COLUMNS / 2, ROWS / 2, orthographic=True)
+    for method in crevice.methods():
+        if not method.bent_normal:
+            continue
+        result, bent = crevice.ao(depth, camera=camera, radius=0.5, method=method.name,
+                                  return_bent_normal=True)
+        assert bent.shape == (ROWS, COLUMNS, 3) and bent.dtype == np.float32
+        assert np.allclose(bent, [0, math.sqrt(0.5), math.sqrt(0.5)], atol=1e-3)
+        assert np.array_equal(result, crevice.ao(depth, camera=camera, radius=0.5,
+                                                 method=method.name))
+    # Left of the pit's centre the wall is on the left: open directions lie on the right.
+    result, bent = run(pit(), method="gtao", return_bent_normal=True)
+    assert (bent[22:26, 24, 0] > 0.05).all() and (bent[22:26, 39, 0] < -0.05).all()
+    assert np.allclose(np.linalg.norm(bent, axis=2), 1, atol=1e-5)
+    with pytest.raises(crevice.InvalidArgument, match="gives no bent normals"):
+        with pytest.warns(UserWarning, match="bent_normal"):
+            run(pit(), method="alchemy", return_bent_normal=True)
+    _, inner = run(pit(), method="gtao", guard=(1, 2, 3, 4), return_bent_normal=True)
+    assert inner.shape == (ROWS - 6, COLUMNS - 4, 3)
+
+
+def test_plans_give_bent_normals():
+    context = crevice.Context(threads=1)
+    gbuffer = crevice.GBuffer(context, COLUMNS, ROWS)
+    gbuffer.set_camera(crevice.Camera.perspective(COLUMNS, ROWS, 60))
+    gbuffer.set_depth(pit())
+    out = np.empty((ROWS, COLUMNS), np.float32)
+    bent = np.empty((ROWS, COLUMNS, 3), np.float32)
+    plan = crevice.Plan(gbuffer, method="gtao", options={"radius": "0.9", "bent_normal": "on"})
+    first, second = plan.run(gbuffer, out, bent=bent)
+    assert first is out and second is bent
+    expected = run(pit(), method="gtao", return_bent_normal=True)
+    assert np.array_equal(out, expected[0]) and np.array_equal(bent, expected[1])
+    assert plan.run(gbuffer, out) is out
+    with pytest.raises(TypeError, match="float32"):
+        plan.run(gbuffer, out, bent=np.empty((ROWS, COLUMNS, 3)))
+    without = crevice.Plan(gbuffer, method="gtao", options={"radius": "0.9"})
+    with pytest.raises(crevice.InvalidArgument, match="bent_normal to 1"):
+        without.run(gbuffer, out, bent)
+
+
 @pytest.mark.parametrize("keywords, kind, words", [
     ({"method": "nothing"}, ValueError, "nothing"),
     ({"preset": "huge"}, ValueError, "huge"),

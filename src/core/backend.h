@@ -10,9 +10,11 @@ typedef struct crv__work {
     const crv__setup *setup;
     void *state; /* the backend's own, from plan_create() */
     const crv__frame *frame;
+    bool filter_only; /* the estimate is there already */
+    bool with_bent;   /* bent normals are wanted, and the plan has their planes */
 } crv__work;
 
-/* A plan's two planes cover the same rectangle, crv__setup_rectangle(). */
+/* A plan's two pictures cover the same rectangle, crv__setup_rectangle(). */
 struct crv__backend {
     const char *name;
     crv_device device;
@@ -29,12 +31,12 @@ struct crv__backend {
      * created with them, without memory; false, and nothing is changed, if that cannot be
      * done. NULL: it never can. */
     bool (*plan_update)(const crv__setup *setup, void *state);
-    /* Writes the accessibility of every pixel to planes[0], intensity and contrast
-     * applied, background 1; with `filter_only` planes[0] holds it already. Then runs the
-     * filter's passes to and fro. *result is the plane that holds the outcome. Allocates
-     * nothing. */
-    crv_status (*run)(const crv__work *work, int filter_only, const crv__plane planes[2],
-                      const crv__plane **result);
+    /* Writes the accessibility of every pixel to pictures[0], intensity and contrast
+     * applied, background 1, and the bent normals of those that are not background; then
+     * runs the filter's passes to and fro. *result: the planes that hold the outcome.
+     * Its bent normals need not have unit length. Allocates nothing. */
+    crv_status (*run)(const crv__work *work, const crv__picture pictures[2],
+                      crv__picture *result);
     /* The last run's, see crv_plan_device_times(); NULL: there are none. */
     crv_status (*times)(const crv__setup *setup, const void *state,
                         crv_device_time *times, int32_t *count);

@@ -30,6 +30,8 @@ size_t crv_struct_size(crv_struct which)
         return sizeof(crv_image);
     case CRV_STRUCT_OPTIONS:
         return sizeof(crv_options);
+    case CRV_STRUCT_RESULT:
+        return sizeof(crv_result);
     }
     return 0;
 }

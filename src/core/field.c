@@ -30,19 +30,13 @@ float crv__height_at(const crv__field *field, float u, float v, float *by_u, flo
     return (top + t * (bottom - top)) * field->scale;
 }
 
-static crv__vec3 plane_vector(const crv__plane planes[3], int32_t x, int32_t y)
-{
-    return (crv__vec3){*crv__plane_at(&planes[0], x, y), *crv__plane_at(&planes[1], x, y),
-                       *crv__plane_at(&planes[2], x, y)};
-}
-
 crv__local_frame crv__local_frame_at(const crv__field *field, crv__vec3 facing, int32_t x,
                                      int32_t y)
 {
     crv__local_frame local = {.u = *crv__plane_at(&field->uv[0], x, y),
                               .v = *crv__plane_at(&field->uv[1], x, y)};
-    const crv__vec3 a = plane_vector(field->tangent, x, y);
-    const crv__vec3 b = plane_vector(field->bitangent, x, y);
+    const crv__vec3 a = crv__vec3_at(field->tangent, x, y);
+    const crv__vec3 b = crv__vec3_at(field->bitangent, x, y);
     const float aa = crv__dot(a, a), ab = crv__dot(a, b), bb = crv__dot(b, b);
     const float determinant = aa * bb - ab * ab;
     /* NaN fails too. A frame whose axes are parallel spans nothing. */

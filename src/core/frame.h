@@ -25,9 +25,20 @@ typedef struct crv__vec3 {
     float x, y, z;
 } crv__vec3;
 
+/* What is computed of a pixel. */
+typedef struct crv__estimate {
+    float accessibility;
+    crv__vec3 bent; /* the bent normal, if it is asked for */
+} crv__estimate;
+
 static inline crv__vec3 crv__sub(crv__vec3 a, crv__vec3 b)
 {
     return (crv__vec3){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+static inline crv__vec3 crv__add_scaled(crv__vec3 a, crv__vec3 b, float scale)
+{
+    return (crv__vec3){a.x + b.x * scale, a.y + b.y * scale, a.z + b.z * scale};
 }
 
 static inline float crv__dot(crv__vec3 a, crv__vec3 b)
@@ -44,11 +55,15 @@ static inline crv__vec3 crv__unproject(const crv__params *p, int32_t x, int32_t 
                        -((float)y + 0.5f - p->cy) * p->inv_fy * scale, -d};
 }
 
+static inline crv__vec3 crv__vec3_at(const crv__plane planes[3], int32_t x, int32_t y)
+{
+    return (crv__vec3){*crv__plane_at(&planes[0], x, y), *crv__plane_at(&planes[1], x, y),
+                       *crv__plane_at(&planes[2], x, y)};
+}
+
 static inline crv__vec3 crv__normal_at(const crv__frame *f, int32_t x, int32_t y)
 {
-    return (crv__vec3){*crv__plane_at(&f->normal[0], x, y),
-                       *crv__plane_at(&f->normal[1], x, y),
-                       *crv__plane_at(&f->normal[2], x, y)};
+    return crv__vec3_at(f->normal, x, y);
 }
 
 /* The method's map at a pixel; beyond the buffers the border's. */

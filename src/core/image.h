@@ -40,4 +40,10 @@ static inline int crv__plane_holds(const crv__plane *plane, int32_t x, int32_t y
            && y - plane->y0 < plane->height;
 }
 
+/* What a plan computes, over one rectangle. */
+typedef struct crv__picture {
+    crv__plane accessibility;
+    crv__plane bent[3]; /* the bent normal's components; data NULL: there are none */
+} crv__picture;
+
 #endif

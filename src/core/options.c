@@ -125,6 +125,8 @@ static const row TABLE[] = {
     INT(noise_index, "", 0, 0, 2147483647, EVERY_METHOD,
         "frame number, if temporal antialiasing averages frames: different noise for "
         "each; else 0"),
+    BOOL(bent_normal, 0, SOME_METHODS,
+         "compute the bent normal, too: the mean open direction, for lighting"),
     FLOAT(
         filter_depth, "radius", 0.05, 1e-4, 1e3, SOME_FILTERS,
         "depth deviation at which a filter tap stops counting; less keeps more edges and "

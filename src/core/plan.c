@@ -5,15 +5,32 @@
 #include "core/gbuffer.h"
 #include "core/options.h"
 
-static bool create_planes(crv_plan *plan)
+static bool create_pictures(crv_plan *plan)
 {
     const crv_allocator *allocator = &plan->context->allocator;
     const crv__rectangle r = crv__setup_rectangle(&plan->setup);
     for (int i = 0; i < (plan->setup.filter ? 2 : 1); i++) {
-        if (crv__plane_create(&plan->planes[i], allocator, r.x, r.y, r.width, r.height))
+        crv__picture *picture = &plan->pictures[i];
+        if (crv__plane_create(&picture->accessibility, allocator, r.x, r.y, r.width,
+                              r.height))
             return false;
+        for (int k = 0; k < (plan->setup.has_bent ? 3 : 0); k++) {
+            if (crv__plane_create(&picture->bent[k], allocator, r.x, r.y, r.width,
+                                  r.height))
+                return false;
+        }
     }
     return true;
+}
+
+static void destroy_pictures(crv_plan *plan)
+{
+    const crv_allocator *allocator = &plan->context->allocator;
+    for (int i = 0; i < 2; i++) {
+        crv__plane_destroy(&plan->pictures[i].accessibility, allocator);
+        for (int k = 0; k < 3; k++)
+            crv__plane_destroy(&plan->pictures[i].bent[k], allocator);
+    }
 }
 
 /* Methods that ask what is inside see nothing of a further surface unless they know or
@@ -51,9 +68,9 @@ crv_status crv_plan_create(crv_context *context, const crv_options *options,
         context->children++;
         plan->setup = setup;
         crv__setup_params(&plan->setup, &plan->params);
-        if (crv__setup_patterns(&plan->setup) == CRV_OK && create_planes(plan)) {
-            status = context->backend->plan_create(&plan->setup, &plan->planes[0],
-                                                   &plan->state);
+        if (crv__setup_patterns(&plan->setup) == CRV_OK && create_pictures(plan)) {
+            status = context->backend->plan_create(
+                &plan->setup, &plan->pictures[0].accessibility, &plan->state);
             if (status == CRV_OK)
                 *out = plan;
             else
@@ -74,8 +91,7 @@ void crv_plan_destroy(crv_plan *plan)
     crv__setup *s = &plan->setup;
     if (plan->state)
         plan->context->backend->plan_destroy(s, plan->state);
-    crv__plane_destroy(&plan->planes[0], allocator);
-    crv__plane_destroy(&plan->planes[1], allocator);
+    destroy_pictures(plan);
     crv__setup_release(s);
     plan->context->children--;
     crv__release(allocator, plan, 1, sizeof *plan);

@@ -10,7 +10,8 @@ struct crv_plan {
     crv__setup setup;
     void *state; /* the backend's */
     crv__params params;
-    crv__plane planes[2]; /* of crv__setup_rectangle(); the second only with a filter */
+    /* Of crv__setup_rectangle(); the second only with a filter. */
+    crv__picture pictures[2];
 };
 
 /* Gives the plan other valid options, so that it is as if made with them; false, and the

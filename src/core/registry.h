@@ -20,6 +20,8 @@ typedef struct crv__method {
     /* The specification: raw accessibility of the pixel (x, y) of the buffers, which is
      * not background; may leave [0, 1] by its sampling error. */
     float (*accessibility)(const crv__frame *frame, int32_t x, int32_t y);
+    /* The same accessibility, and the bent normal; NULL: the method gives none. */
+    crv__estimate (*estimate)(const crv__frame *frame, int32_t x, int32_t y);
     int32_t volumetric; /* 0 or 1: needs to know what is inside, so that further layers
                            help only as pairs of front and back */
     /* The method's sample pattern: fills options->samples points of four floats. Methods
@@ -40,9 +42,10 @@ typedef struct crv__filter {
     int32_t radius_px; /* a pixel of the result depends on input at most this far away */
     /* The specification: the pixel (x, y), which is not background, of a pass. input
      * holds the estimate in the first pass and the output of the pass before in the
-     * others. */
-    float (*filter)(const crv__frame *frame, const crv__plane *input, int32_t pass,
-                    int32_t x, int32_t y);
+     * others. Bent normals, if input has them, are weighted means of the pass's taps, and
+     * not normalised. */
+    crv__estimate (*filter)(const crv__frame *frame, const crv__picture *input,
+                            int32_t pass, int32_t x, int32_t y);
 } crv__filter;
 
 /* The places of a method and of a filter in their lists. */

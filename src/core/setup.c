@@ -14,6 +14,11 @@ static const crv__map *needed_map(const crv__method *method, const crv_options *
     return method->map ? method->map(options) : NULL;
 }
 
+static bool wants_bent(const crv_options *options)
+{
+    return options->bent_normal && options->method->bent_normal;
+}
+
 crv__setup crv__setup_make(const crv_context *context, const crv_options *options,
                            const crv_gbuffer_desc *desc)
 {
@@ -23,6 +28,7 @@ crv__setup crv__setup_make(const crv_context *context, const crv_options *option
                         .filter =
                             options->filter ? crv__filter_of(options->filter) : NULL,
                         .map = needed_map(method, options),
+                        .has_bent = wants_bent(options),
                         .options = *options,
                         .desc = *desc};
 }
@@ -149,6 +155,11 @@ const crv__map *crv__setup_map(const crv__setup *s)
     return needed_map(s->method, &s->options);
 }
 
+bool crv__setup_bent(const crv__setup *s)
+{
+    return wants_bent(&s->options);
+}
+
 /* ---- sizes ---- */
 
 static int32_t least(int32_t a, int32_t b)
@@ -186,6 +197,8 @@ const char *crv__setup_obstacle(const crv__setup *s, const crv_options *options)
         return "directions";
     if (next.map && next.map != s->map)
         return next.map->option;
+    if (next.has_bent && !s->has_bent)
+        return "bent_normal";
     return point_count(s->method, options) > s->point_count ? "samples" : NULL;
 }
 

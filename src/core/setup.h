@@ -13,6 +13,7 @@ typedef struct crv__setup {
     const crv__method *method;
     const crv__filter *filter; /* NULL: none */
     const crv__map *map;       /* that there is memory for; NULL: none */
+    bool has_bent;             /* there is memory for bent normals */
     crv_options options;
     crv_gbuffer_desc desc;
     /* crv__setup_patterns() */
@@ -48,6 +49,9 @@ void crv__setup_fill(const crv__setup *setup);
 
 /* The map that the setup's options need; NULL: none. */
 const crv__map *crv__setup_map(const crv__setup *setup);
+
+/* Whether the setup's options ask for bent normals of a method that gives them. */
+bool crv__setup_bent(const crv__setup *setup);
 
 /* Fills what does not depend on the frame. */
 void crv__setup_params(const crv__setup *setup, crv__params *params);

@@ -29,9 +29,12 @@ typedef struct tiles {
         group_kernel; /* with di: for groups rather than tiles of pixels */
     const crv__deinterleaved *di;
     int32_t pass;
-    const crv__plane *input, *out;
+    const crv__picture *input; /* of a filter's pass */
+    const crv__plane *out;     /* accessibility; NULL: not computed */
+    const crv__plane *bent;    /* three planes; NULL: not computed */
+    crv__rectangle area;
     int32_t columns, rows;
-    void (*row)(const struct tiles *tiles, int32_t x0, int32_t x1, int32_t y, float *out);
+    void (*row)(const struct tiles *tiles, int32_t x0, int32_t x1, int32_t y);
 } tiles;
 
 static float clamped(float a)
@@ -44,33 +47,71 @@ static int is_background(const tiles *t, int32_t x, int32_t y)
     return !(*crv__plane_at(&t->work->frame->depth[0], x, y) < INFINITY);
 }
 
-static void estimate_row(const tiles *t, int32_t x0, int32_t x1, int32_t y, float *out)
+static void put_bent(const tiles *t, int32_t x, int32_t y, crv__vec3 bent)
 {
-    const crv__frame *frame = t->work->frame;
-    const crv__params *p = frame->params;
-    const int32_t count = x1 - x0;
-    if (t->estimate_kernel)
-        t->estimate_kernel(frame, x0, x1, y, out);
-    for (int32_t i = 0; i < count && !t->estimate_kernel; i++) {
-        const float a =
-            is_background(t, x0 + i, y) ? 1 : t->method->accessibility(frame, x0 + i, y);
-        out[i] = clamped(1 - p->intensity * (1 - a));
-    }
-    for (int32_t i = 0; i < count && p->contrast != 1; i++)
-        out[i] = powf(out[i], p->contrast);
+    *crv__plane_at(&t->bent[0], x, y) = bent.x;
+    *crv__plane_at(&t->bent[1], x, y) = bent.y;
+    *crv__plane_at(&t->bent[2], x, y) = bent.z;
 }
 
-static void filter_row(const tiles *t, int32_t x0, int32_t x1, int32_t y, float *out)
+/* The specification of pixels x0 to x1 - 1; out NULL: their bent normals alone. */
+static void specify_row(const tiles *t, int32_t x0, int32_t x1, int32_t y, float *out)
 {
     const crv__frame *frame = t->work->frame;
     for (int32_t x = x0; x < x1; x++) {
-        const float own = *crv__plane_at(t->input, x, y);
-        if (is_background(t, x, y))
-            out[x - x0] = 1;
-        else if (isnan(own)) /* not part of the picture: stays so */
-            out[x - x0] = own;
-        else
-            out[x - x0] = clamped(t->filter->filter(frame, t->input, t->pass, x, y));
+        crv__estimate e = {.accessibility = 1};
+        if (!is_background(t, x, y) && t->bent)
+            e = t->method->estimate(frame, x, y);
+        else if (!is_background(t, x, y))
+            e.accessibility = t->method->accessibility(frame, x, y);
+        if (out)
+            out[x - x0] = clamped(1 - frame->params->intensity * (1 - e.accessibility));
+        if (t->bent)
+            put_bent(t, x, y, e.bent);
+    }
+}
+
+static void estimate_pixels(const tiles *t, int32_t x0, int32_t x1, int32_t y, float *out)
+{
+    const crv__frame *frame = t->work->frame;
+    const crv__params *p = frame->params;
+    if (t->estimate_kernel)
+        t->estimate_kernel(frame, x0, x1, y, out);
+    else
+        specify_row(t, x0, x1, y, out);
+    for (int32_t i = 0; i < x1 - x0 && p->contrast != 1; i++)
+        out[i] = powf(out[i], p->contrast);
+}
+
+static void estimate_row(const tiles *t, int32_t x0, int32_t x1, int32_t y)
+{
+    estimate_pixels(t, x0, x1, y, crv__plane_at(t->out, x0, y));
+}
+
+static void bent_row(const tiles *t, int32_t x0, int32_t x1, int32_t y)
+{
+    specify_row(t, x0, x1, y, NULL);
+}
+
+static float filtered(float accessibility, float own, bool background)
+{
+    if (background)
+        return 1;
+    return isnan(own) ? own : clamped(accessibility); /* NaN: not part of the picture */
+}
+
+static void filter_row(const tiles *t, int32_t x0, int32_t x1, int32_t y)
+{
+    for (int32_t x = x0; x < x1; x++) {
+        const float own = *crv__plane_at(&t->input->accessibility, x, y);
+        const bool background = is_background(t, x, y);
+        crv__estimate e = {.accessibility = 1};
+        if (!background && !isnan(own))
+            e = t->filter->filter(t->work->frame, t->input, t->pass, x, y);
+        if (t->out)
+            *crv__plane_at(t->out, x, y) = filtered(e.accessibility, own, background);
+        if (t->bent)
+            put_bent(t, x, y, e.bent);
     }
 }
 
@@ -92,21 +133,22 @@ static void tile_place(uint32_t index, int32_t columns, int32_t rows, int32_t st
 static void run_tile(void *data, uint32_t index)
 {
     const tiles *t = data;
-    const crv__plane *out = t->out;
+    const crv__rectangle area = t->area;
     int32_t column, row;
     tile_place(index, t->columns, t->rows, TILE_STRIP, &column, &row);
-    const int32_t x0 = out->x0 + column * TILE_WIDTH, y0 = out->y0 + row * TILE_HEIGHT;
-    const int32_t right = out->x0 + out->width, bottom = out->y0 + out->height;
+    const int32_t x0 = area.x + column * TILE_WIDTH, y0 = area.y + row * TILE_HEIGHT;
+    const int32_t right = area.x + area.width, bottom = area.y + area.height;
     const int32_t x1 = x0 + TILE_WIDTH < right ? x0 + TILE_WIDTH : right;
     const int32_t y1 = y0 + TILE_HEIGHT < bottom ? y0 + TILE_HEIGHT : bottom;
     for (int32_t y = y0; y < y1; y++)
-        t->row(t, x0, x1, y, crv__plane_at(out, x0, y));
+        t->row(t, x0, x1, y);
 }
 
 static void run_tiles(tiles *t)
 {
-    t->columns = (t->out->width + TILE_WIDTH - 1) / TILE_WIDTH;
-    t->rows = (t->out->height + TILE_HEIGHT - 1) / TILE_HEIGHT;
+    t->area = crv__setup_rectangle(t->work->setup);
+    t->columns = (t->area.width + TILE_WIDTH - 1) / TILE_WIDTH;
+    t->rows = (t->area.height + TILE_HEIGHT - 1) / TILE_HEIGHT;
     crv__run_parallel(t->work->setup->context, (uint32_t)t->columns * (uint32_t)t->rows,
                       run_tile, t);
 }
@@ -134,7 +176,7 @@ static void mend_row(const tiles *t, int32_t x0, int32_t x1, int32_t y, float *o
     for (int32_t x = x0; x < x1; x += CRV__GROUP_SPAN) {
         const int32_t end = x + CRV__GROUP_SPAN < x1 ? x + CRV__GROUP_SPAN : x1;
         const float *depth = crv__plane_at(&t->work->frame->depth[0], x, y);
-        estimate_row(t, x, end, y, exact);
+        estimate_pixels(t, x, end, y, exact);
         for (int32_t i = 0; i < end - x; i++) {
             if (crv__deinterleaved_is_beyond(t->di, t->work->frame->params, depth[i]))
                 out[x - x0 + i] = exact[i];
@@ -232,18 +274,19 @@ static void make_map(const crv__work *work)
         crv__run_rows(context, out->height, map_row, &job);
 }
 
-static void estimate(const crv__work *work, const crv__plane *out)
+static void estimate(const crv__work *work, const crv__picture *to)
 {
-    const crv__method *method = work->setup->method;
     const plan_state *state = state_of(work);
     tiles t = {.work = work,
-               .method = method,
+               .method = work->setup->method,
                .estimate_kernel = state->estimate,
-               .out = out,
+               .out = &to->accessibility,
                .row = estimate_row};
-    if (work->frame->map) {
+    const bool at_once = work->with_bent && !state->estimate;
+    if (work->frame->map)
         make_map(work);
-    }
+    if (at_once)
+        t.bent = to->bent;
     if (state->di) {
         t.di = crv__deinterleaved_prepare(state->di, work->setup, work->frame);
         t.group_kernel = crv__deinterleaved_kernel_of(state->di);
@@ -251,16 +294,23 @@ static void estimate(const crv__work *work, const crv__plane *out)
     } else {
         run_tiles(&t);
     }
+    if (work->with_bent && !at_once) {
+        t.bent = to->bent;
+        t.row = bent_row;
+        run_tiles(&t);
+    }
 }
 
-static void filter_pass(const crv__work *work, int32_t pass, const crv__plane *input,
-                        const crv__plane *out)
+/* A pass of the specification; out NULL: of the bent normals alone. */
+static void filter_pass(const crv__work *work, int32_t pass, const crv__picture *input,
+                        const crv__plane *out, const crv__plane *bent)
 {
     tiles t = {.work = work,
                .filter = work->setup->filter,
                .pass = pass,
                .input = input,
                .out = out,
+               .bent = bent,
                .row = filter_row};
     run_tiles(&t);
 }
@@ -276,31 +326,55 @@ static void run_filter_tile(void *data, uint32_t index)
     const int32_t right = out->x0 + out->width, bottom = out->y0 + out->height;
     const int32_t x1 = x0 + CRV__FILTER_TILE_WIDTH, y1 = y0 + CRV__FILTER_TILE_HEIGHT;
     const crv__tile tile = {x0, x1 < right ? x1 : right, y0, y1 < bottom ? y1 : bottom};
-    t->filter_kernel(t->work->frame, t->input, out, tile);
+    t->filter_kernel(t->work->frame, &t->input->accessibility, out, tile);
 }
 
-/* All passes at once, from planes[0] to planes[1]. What the host gives to be filtered
- * alone has nothing beyond the guard band: the kernel is not shown that part. */
-static void filter_with(const crv__work *work, crv__filter_kernel kernel, int filter_only,
-                        const crv__plane planes[2])
+/* What the host gives to be filtered alone has nothing beyond the guard band: kernels are
+ * not shown that part. */
+static crv__plane shown_part(const crv__work *work, const crv__plane *plane)
 {
     const crv_gbuffer_desc *d = &work->setup->desc;
-    crv__plane shown[2] = {planes[0], planes[1]};
-    for (int i = 0; i < 2 && filter_only; i++) {
-        crv__plane *p = &shown[i];
-        p->data = crv__plane_at(p, d->guard_left, d->guard_top);
-        p->x0 = d->guard_left;
-        p->y0 = d->guard_top;
-        p->width = d->width - d->guard_left - d->guard_right;
-        p->height = d->height - d->guard_top - d->guard_bottom;
-    }
-    tiles t = {
-        .work = work, .filter_kernel = kernel, .input = &shown[0], .out = &shown[1]};
-    t.columns = (t.out->width + CRV__FILTER_TILE_WIDTH - 1) / CRV__FILTER_TILE_WIDTH;
+    crv__plane part = *plane;
+    if (!work->filter_only)
+        return part;
+    part.data = crv__plane_at(plane, d->guard_left, d->guard_top);
+    part.x0 = d->guard_left;
+    part.y0 = d->guard_top;
+    part.width = d->width - d->guard_left - d->guard_right;
+    part.height = d->height - d->guard_top - d->guard_bottom;
+    return part;
+}
+
+/* All passes at once, from pictures[0] to pictures[1]: accessibility. */
+static void filter_with(const crv__work *work, crv__filter_kernel kernel,
+                        const crv__picture pictures[2])
+{
+    const crv__picture input = {.accessibility =
+                                    shown_part(work, &pictures[0].accessibility)};
+    const crv__plane out = shown_part(work, &pictures[1].accessibility);
+    tiles t = {.work = work, .filter_kernel = kernel, .input = &input, .out = &out};
+    t.columns = (out.width + CRV__FILTER_TILE_WIDTH - 1) / CRV__FILTER_TILE_WIDTH;
     const int32_t rows =
-        (t.out->height + CRV__FILTER_TILE_HEIGHT - 1) / CRV__FILTER_TILE_HEIGHT;
+        (out.height + CRV__FILTER_TILE_HEIGHT - 1) / CRV__FILTER_TILE_HEIGHT;
     crv__run_parallel(work->setup->context, (uint32_t)t.columns * (uint32_t)rows,
                       run_filter_tile, &t);
+}
+
+/* The specification's passes, to and fro; of the bent normals alone if a kernel filters
+ * accessibility. */
+static void filter_passes(const crv__work *work, const crv__picture pictures[2],
+                          bool bent_only)
+{
+    for (int32_t pass = 0; pass < work->setup->filter->passes; pass++) {
+        const crv__picture *to = &pictures[(pass + 1) % 2];
+        crv__picture input = pictures[pass % 2];
+        if (bent_only) /* the kernel leaves the estimate where it is */
+            input.accessibility = pictures[0].accessibility;
+        if (!work->with_bent)
+            input.bent[0].data = NULL;
+        filter_pass(work, pass, &input, bent_only ? NULL : &to->accessibility,
+                    work->with_bent ? to->bent : NULL);
+    }
 }
 
 /* ---- plans ---- */
@@ -371,26 +445,28 @@ static bool plan_update(const crv__setup *setup, void *data)
     return true;
 }
 
-static crv_status run(const crv__work *given, int filter_only, const crv__plane planes[2],
-                      const crv__plane **result)
+static crv_status run(const crv__work *given, const crv__picture pictures[2],
+                      crv__picture *result)
 {
     const plan_state *own = given->state;
     crv__frame frame = *given->frame;
     frame.map = crv__setup_map(given->setup) ? &own->map : NULL;
-    const crv__work with_map = {given->setup, given->state, &frame}, *work = &with_map;
-    const crv__filter *filter = work->setup->filter;
-    const crv__filter_kernel kernel = state_of(work)->filter;
-    const int32_t passes = filter && !kernel ? filter->passes : 0;
-    if (!filter_only)
-        estimate(work, &planes[0]);
-    if (kernel) {
-        filter_with(work, kernel, filter_only, planes);
-        *result = &planes[1];
+    crv__work work = *given;
+    work.frame = &frame;
+    const crv__filter *filter = work.setup->filter;
+    const crv__filter_kernel kernel = state_of(&work)->filter;
+    if (!work.filter_only)
+        estimate(&work, &pictures[0]);
+    *result = pictures[0];
+    if (!filter)
         return CRV_OK;
+    *result = pictures[filter->passes % 2];
+    if (!kernel || work.with_bent)
+        filter_passes(&work, pictures, kernel);
+    if (kernel) {
+        filter_with(&work, kernel, pictures);
+        result->accessibility = pictures[1].accessibility;
     }
-    for (int32_t pass = 0; pass < passes; pass++)
-        filter_pass(work, pass, &planes[pass % 2], &planes[(pass + 1) % 2]);
-    *result = &planes[passes % 2];
     return CRV_OK;
 }
 

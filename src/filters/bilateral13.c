@@ -13,8 +13,8 @@
 
 enum { RADIUS = 6 };
 
-static float filter(const crv__frame *f, const crv__plane *input, int32_t pass, int32_t x,
-                    int32_t y)
+static crv__estimate filter(const crv__frame *f, const crv__picture *input, int32_t pass,
+                            int32_t x, int32_t y)
 {
     /* exp(-k^2 / (2 sigma^2)), sigma = RADIUS / 2 */
     static const float GAUSS[RADIUS + 1] = {1.0f,        0.94595947f, 0.80073740f,
@@ -22,17 +22,16 @@ static float filter(const crv__frame *f, const crv__plane *input, int32_t pass, 
                                             0.13533528f};
     const crv__centre centre = crv__centre_at(f, x, y);
     const int32_t step_x = pass == 0, step_y = pass == 1;
-    float sum = 0, weights = 0;
+    crv__tap_sum sum = {{0}, 0};
     for (int32_t k = -RADIUS; k <= RADIUS; k++) {
         crv__tap tap;
         if (!crv__tap_at(f, input, &centre, k * step_x, k * step_y, &tap)
             || tap.deviation >= 1)
             continue;
         const float weight = GAUSS[k < 0 ? -k : k] * (1 - tap.deviation) * tap.likeness;
-        sum += weight * tap.value;
-        weights += weight;
+        crv__tap_add(&sum, &tap.value, weight);
     }
-    return sum / weights; /* the centre weighs 1 */
+    return crv__tap_mean(&sum); /* the centre weighs 1 */
 }
 
 static const char *const OPTIONS[] = {"filter_depth", "filter_slope", "filter_normal",

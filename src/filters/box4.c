@@ -10,22 +10,21 @@
 
 enum { FIRST = -2, LAST = 1 };
 
-static float filter(const crv__frame *f, const crv__plane *input, int32_t pass, int32_t x,
-                    int32_t y)
+static crv__estimate filter(const crv__frame *f, const crv__picture *input, int32_t pass,
+                            int32_t x, int32_t y)
 {
     const crv__centre centre = crv__centre_at(f, x, y);
-    float sum = 0, count = 0;
+    crv__tap_sum sum = {{0}, 0};
     (void)pass;
     for (int32_t dy = FIRST; dy <= LAST; dy++) {
         for (int32_t dx = FIRST; dx <= LAST; dx++) {
             crv__tap tap;
             if (!crv__tap_at(f, input, &centre, dx, dy, &tap) || tap.deviation > 1)
                 continue;
-            sum += tap.value;
-            count += 1;
+            crv__tap_add(&sum, &tap.value, 1);
         }
     }
-    return sum / count; /* the centre is always in */
+    return crv__tap_mean(&sum); /* the centre is always in */
 }
 
 static const char *const OPTIONS[] = {"filter_depth", "filter_slope", "filter_normal",

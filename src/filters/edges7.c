@@ -72,15 +72,18 @@ static int32_t edges_towards(const crv__frame *f, const crv__plane *input, int32
     return RADIUS;
 }
 
-static float filter(const crv__frame *f, const crv__plane *input, int32_t pass, int32_t x,
-                    int32_t y)
+static crv__estimate filter(const crv__frame *f, const crv__picture *input, int32_t pass,
+                            int32_t x, int32_t y)
 {
     const int32_t step_x = pass == 0, step_y = pass == 1;
     float edges[2][RADIUS];
-    const int32_t count[2] = {edges_towards(f, input, x, y, -step_x, -step_y, edges[0]),
-                              edges_towards(f, input, x, y, step_x, step_y, edges[1])};
+    const crv__plane *taps = &input->accessibility;
+    const int32_t count[2] = {edges_towards(f, taps, x, y, -step_x, -step_y, edges[0]),
+                              edges_towards(f, taps, x, y, step_x, step_y, edges[1])};
     const float least = LONELY * fmaxf(0, 1 - edges[0][0] - edges[1][0]);
-    float weights = RADIUS + 1, sum = weights * *crv__plane_at(input, x, y);
+    const crv__estimate own = crv__estimate_at(input, x, y);
+    crv__tap_sum sum = {{0}, 0};
+    crv__tap_add(&sum, &own, RADIUS + 1);
     for (int32_t side = 0; side < 2; side++) {
         float product = 1;
         for (int32_t k = 1; k <= count[side]; k++) {
@@ -88,11 +91,12 @@ static float filter(const crv__frame *f, const crv__plane *input, int32_t pass, 
             const float e = edges[side][k - 1];
             product *= k == 1 ? fmaxf(e, least) : e;
             const float weight = (float)(RADIUS + 1 - k) * product;
-            sum += weight * *crv__plane_at(input, x + at * step_x, y + at * step_y);
-            weights += weight;
+            const crv__estimate tap =
+                crv__estimate_at(input, x + at * step_x, y + at * step_y);
+            crv__tap_add(&sum, &tap, weight);
         }
     }
-    return sum / weights;
+    return crv__tap_mean(&sum);
 }
 
 static const char *const OPTIONS[] = {"filter_depth", "filter_slope", "filter_normal",

@@ -13,13 +13,13 @@
 
 enum { RADIUS = 2 };
 
-static float filter(const crv__frame *f, const crv__plane *input, int32_t pass, int32_t x,
-                    int32_t y)
+static crv__estimate filter(const crv__frame *f, const crv__picture *input, int32_t pass,
+                            int32_t x, int32_t y)
 {
     static const float BINOMIAL[RADIUS + 1] = {6, 4,
                                                1}; /* the 5-tap Gaussian, unscaled */
     const crv__centre centre = crv__centre_at(f, x, y);
-    float sum = 0, weights = 0;
+    crv__tap_sum sum = {{0}, 0};
     (void)pass;
     for (int32_t dy = -RADIUS; dy <= RADIUS; dy++) {
         for (int32_t dx = -RADIUS; dx <= RADIUS; dx++) {
@@ -28,11 +28,10 @@ static float filter(const crv__frame *f, const crv__plane *input, int32_t pass, 
                 continue;
             const float weight = BINOMIAL[dx < 0 ? -dx : dx] * BINOMIAL[dy < 0 ? -dy : dy]
                                  * tap.likeness / (tap.deviation + 0.125f);
-            sum += weight * tap.value;
-            weights += weight;
+            crv__tap_add(&sum, &tap.value, weight);
         }
     }
-    return sum / weights; /* the centre weighs 36 * 8 */
+    return crv__tap_mean(&sum); /* the centre weighs 36 * 8 */
 }
 
 static const char *const OPTIONS[] = {"filter_depth", "filter_slope", "filter_normal",

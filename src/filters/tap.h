@@ -45,8 +45,40 @@ static inline crv__centre crv__centre_at(const crv__frame *f, int32_t x, int32_t
     return c;
 }
 
+/* A pixel of a pass's input. */
+static inline crv__estimate crv__estimate_at(const crv__picture *input, int32_t x,
+                                             int32_t y)
+{
+    crv__estimate e = {.accessibility = *crv__plane_at(&input->accessibility, x, y)};
+    if (input->bent[0].data)
+        e.bent = crv__vec3_at(input->bent, x, y);
+    return e;
+}
+
+/* The weighted sum of taps. */
+typedef struct crv__tap_sum {
+    crv__estimate values;
+    float weights;
+} crv__tap_sum;
+
+static inline void crv__tap_add(crv__tap_sum *sum, const crv__estimate *value,
+                                float weight)
+{
+    sum->values.accessibility += weight * value->accessibility;
+    sum->values.bent = crv__add_scaled(sum->values.bent, value->bent, weight);
+    sum->weights += weight;
+}
+
+static inline crv__estimate crv__tap_mean(const crv__tap_sum *sum)
+{
+    const crv__vec3 b = sum->values.bent;
+    const float weights = sum->weights;
+    return (crv__estimate){sum->values.accessibility / weights,
+                           {b.x / weights, b.y / weights, b.z / weights}};
+}
+
 typedef struct crv__tap {
-    float value;
+    crv__estimate value;
     float deviation; /* of its depth from what the centre leads one to expect, in units of
                         filter_depth */
     float likeness;  /* of its normal to the centre's, 0 to 1 */
@@ -57,15 +89,15 @@ typedef struct crv__tap {
  * background, a surface turned by filter_normal or more, or one so far off that the
  * deviation overflows.
  */
-static inline int crv__tap_at(const crv__frame *f, const crv__plane *input,
+static inline int crv__tap_at(const crv__frame *f, const crv__picture *input,
                               const crv__centre *c, int32_t dx, int32_t dy, crv__tap *tap)
 {
     const int32_t u = c->x + dx, v = c->y + dy;
-    if (!crv__plane_holds(input, u, v))
+    if (!crv__plane_holds(&input->accessibility, u, v))
         return 0;
     const float d = *crv__plane_at(&f->depth[0], u, v);
-    tap->value = *crv__plane_at(input, u, v);
-    if (!(d < INFINITY) || isnan(tap->value))
+    tap->value = crv__estimate_at(input, u, v);
+    if (!(d < INFINITY) || isnan(tap->value.accessibility))
         return 0;
     const float expected = c->depth + (float)dx * c->slope_x + (float)dy * c->slope_y;
     tap->deviation = fabsf(d - expected) / f->params->filter_depth;

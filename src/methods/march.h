@@ -4,12 +4,7 @@
 #ifndef CRV_METHODS_MARCH_H
 #define CRV_METHODS_MARCH_H
 
-#include "core/frame.h"
-
-static inline crv__vec3 crv__add_scaled(crv__vec3 a, crv__vec3 b, float scale)
-{
-    return (crv__vec3){a.x + b.x * scale, a.y + b.y * scale, a.z + b.z * scale};
-}
+#include "methods/bent.h"
 
 static inline float crv__length(crv__vec3 v)
 {

@@ -5,12 +5,13 @@
  *
  * Nd * Nn rays with cosine density over the whole hemisphere: Nd azimuths with Nn heights
  * z each. z^2 is stratified uniformly in [0, 1], so that every ray has the same weight.
- * Rays are marched in Ns steps.
+ * Rays are marched in Ns steps. For the bent normal (bent.h) each has the measure 1.
  */
 #include "core/registry.h"
 #include "methods/march.h"
 
-static float accessibility(const crv__frame *f, int32_t x, int32_t y)
+/* bent NULL: not wanted. */
+static float trace(const crv__frame *f, int32_t x, int32_t y, crv__vec3 *bent)
 {
     const crv__params *p = f->params;
     const crv__noise_texel *noise = crv__noise_at(f, x, y);
@@ -22,18 +23,39 @@ static float accessibility(const crv__frame *f, int32_t x, int32_t y)
 
     const int32_t rays = p->normal_rays > 0 ? p->normal_rays : 1;
     float occlusion = 0;
+    crv__bent_sums sums = {{0, 0, 0}, {0, 0, 0}};
     for (int32_t i = 0; i < p->directions; i++) {
         const crv__vec3 t = crv__slice_tangent(f, noise, i, tangent, bitangent);
         for (int32_t k = 0; k < rays; k++) {
             const float stratum = ((float)k + crv__stratum(noise, i)) / (float)rays;
-            occlusion += crv__march(f, origin, crv__raised(n, t, stratum), noise->beta);
+            const crv__vec3 direction = crv__raised(n, t, stratum);
+            const float blocked = crv__march(f, origin, direction, noise->beta);
+            occlusion += blocked;
+            if (bent)
+                crv__bent_add(&sums, direction, 1, blocked);
         }
     }
-    return 1 - occlusion / (float)(p->directions * rays);
+    const float total = (float)(p->directions * rays), A = 1 - occlusion / total;
+    if (bent)
+        *bent = crv__bent_normal(&sums, n, A, CRV__BENT_COSINE * total);
+    return A;
 }
 
-static const char *const OPTIONS[] = {"falloff", "tau",         "u",         "directions",
-                                      "steps",   "normal_rays", "thickness", NULL};
+static float accessibility(const crv__frame *f, int32_t x, int32_t y)
+{
+    return trace(f, x, y, NULL);
+}
+
+static crv__estimate estimate(const crv__frame *f, int32_t x, int32_t y)
+{
+    crv__estimate e;
+    e.accessibility = trace(f, x, y, &e.bent);
+    return e;
+}
+
+static const char *const OPTIONS[] = {"falloff",    "tau",         "u",
+                                      "directions", "steps",       "normal_rays",
+                                      "thickness",  "bent_normal", NULL};
 
 const crv__method crv__method_raymarch = {
     .info =
@@ -42,8 +64,10 @@ const crv__method crv__method_raymarch = {
          .paper =
              "Dimitrov, Bavoil, Sainz 2008: Horizon-Split Ambient Occlusion (baseline)",
          .weighting = CRV_WEIGHTING_COSINE,
-         .options = OPTIONS},
+         .options = OPTIONS,
+         .bent_normal = 1},
     .accessibility = accessibility,
+    .estimate = estimate,
     .presets = {
         "directions=4 steps=8 normal_rays=1", "directions=8 steps=8 normal_rays=4",
         "directions=12 steps=12 normal_rays=6", "directions=24 steps=24 normal_rays=8",

@@ -54,6 +54,10 @@ static crv_status plan_create(const crv__setup *setup, const crv__plane *rectang
     crv_status status = crv__setup_check(d, setup);
     if (status)
         return status;
+    if (setup->has_bent)
+        return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
+                         "vulkan: bent normals are for the CPU only; use a CPU context, "
+                         "or bent_normal=0");
     plan_state *state = crv__allocate(&setup->context->allocator, 1, sizeof *state);
     if (!state)
         return crv__fail(&d->logger, CRV_ERROR_OUT_OF_MEMORY, "plan: out of memory");
@@ -137,8 +141,8 @@ static crv_status submit(const void *user, int32_t done, int32_t total)
     return crv__commands_begin(&state->commands, d);
 }
 
-static crv_status run(const crv__work *work, int filter_only, const crv__plane planes[2],
-                      const crv__plane **out)
+static crv_status run(const crv__work *work, const crv__picture pictures[2],
+                      crv__picture *out)
 {
     plan_state *state = work->state;
     const crv__device *d = state->pass.device;
@@ -147,12 +151,12 @@ static crv_status run(const crv__work *work, int filter_only, const crv__plane p
                           .staging = &state->staging,
                           .submit = submit,
                           .user = work,
-                          .filter_only = filter_only != 0};
+                          .filter_only = work->filter_only};
     if (work->frame->params->use_field)
         return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
                          "vulkan: height fields and implicit surfaces are for the CPU "
                          "only; use a CPU context, or characteristic=depth");
-    pack(work, state, &planes[0], job.filter_only);
+    pack(work, state, &pictures[0].accessibility, job.filter_only);
     crv__slot_fill(slot, work->setup, work->frame->params, 0);
     crv_status status = crv__commands_begin(&state->commands, d);
     if (status)
@@ -162,8 +166,8 @@ static crv_status run(const crv__work *work, int filter_only, const crv__plane p
         status = crv__commands_run(&state->commands, d);
     if (status)
         return status;
-    *out = &planes[state->pass.program.passes % 2];
-    unpack_plane(staged(state, state->staging.accessibility), *out);
+    *out = pictures[state->pass.program.passes % 2];
+    unpack_plane(staged(state, state->staging.accessibility), &out->accessibility);
     return CRV_OK;
 }
 
