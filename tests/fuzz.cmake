@@ -30,7 +30,7 @@ find_package(OpenEXR 3.1 REQUIRED)
 find_package(PNG REQUIRED)
 pkg_check_modules(CMOCKA REQUIRED IMPORTED_TARGET cmocka)
 add_executable(fuzz_seeds
-    fuzz/seeds.c fuzz/seeds_models.c fuzz/seeds_pictures.c test_io_support.c)
+    fuzz/seeds.c fuzz/seeds_models.c fuzz/seeds_pictures.c fuzz/seeds_readers.c test_io_support.c)
 target_compile_definitions(fuzz_seeds PRIVATE _XOPEN_SOURCE=700)
 target_include_directories(fuzz_seeds PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_libraries(fuzz_seeds PRIVATE crevice_fuzz assimp::assimp crevice_flags

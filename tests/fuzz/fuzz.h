@@ -25,6 +25,8 @@ void fuzz_frame(const uint8_t *data, size_t size);
 void fuzz_api(const uint8_t *data, size_t size);
 /* A letter for the extension, then a model file, through the import's child process. */
 void fuzz_mesh(const uint8_t *data, size_t size);
+/* The extensions in the order of their letters, from 'a'; NULL-terminated. */
+extern const char *const fuzz_mesh_extensions[];
 /* glTF, as the child process reads it. */
 void fuzz_gltf(const uint8_t *data, size_t size);
 /* What a child process whose reader was taken over may send. */

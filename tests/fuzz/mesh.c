@@ -3,11 +3,15 @@
 
 #include "scene.h"
 
-/* What the table of seeds has. Others go by their content. */
-static const char *const extensions[] = {"obj",    "ply",  "stl", "gltf", "glb",
-                                         "fbx",    "dae",  "3ds", "x",    "off",
-                                         "assbin", "pbrt", "bin"};
-enum { COUNT = sizeof extensions / sizeof *extensions };
+/* Every reader of assimp. Others go by their content. */
+const char *const fuzz_mesh_extensions[] = {
+    "obj",    "ply",  "stl",  "gltf", "glb",  "fbx",     "dae", "3ds", "x",    "off",
+    "assbin", "pbrt", "bin",  "3d",   "3mf",  "ac",      "amf", "ase", "b3d",  "blend",
+    "bvh",    "cob",  "csm",  "dxf",  "enff", "hmp",     "ifc", "iqm", "irr",  "irrmesh",
+    "lwo",    "lws",  "m3d",  "md2",  "md3",  "md5mesh", "mdc", "mdl", "mesh", "mesh.xml",
+    "ms3d",   "ndo",  "nff",  "pk3",  "pmx",  "q3o",     "raw", "sib", "smd",  "stp",
+    "ter",    "x3d",  "x3db", "xgl",  NULL};
+enum { COUNT = sizeof fuzz_mesh_extensions / sizeof *fuzz_mesh_extensions - 1 };
 
 static void look_at(const scene *s)
 {
@@ -35,7 +39,8 @@ void fuzz_mesh(const uint8_t *data, size_t size)
     scene *s = NULL;
     if (size < 2)
         return;
-    snprintf(name, sizeof name, "input.%s", extensions[(data[0] - 'a' + 256u) % COUNT]);
+    snprintf(name, sizeof name, "input.%s",
+             fuzz_mesh_extensions[(data[0] - 'a' + 256u) % COUNT]);
     fuzz_file(name, data + 1, size - 1);
     const int before = fuzz_errors;
     const int result = scene_load_limited(name, &limits, &s, &fuzz_logger);

@@ -12,6 +12,12 @@ void seeds_write(const char *target, const char *name, const void *data, size_t 
 void seeds_take(const char *target, const char *name, const char *path,
                 const char *before, const char *after);
 
+/* A model, by the extension of its name. */
+void seeds_write_model(const char *name, const void *data, size_t size);
+
+/* seeds_readers.c: models in formats that assimp only reads. */
+void seeds_write_for_readers(void);
+
 /* seeds_pictures.c */
 void seeds_write_pictures(void);
 

@@ -14,17 +14,36 @@ static const char square[] = "v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 1 -1\n"
                              "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 1 0\n"
                              "f 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4/4/1\n";
 
-/* The formats and the letter by which the target knows their extension. */
 static const struct {
     const char *id, *name;
-    char letter;
 } formats[] = {
-    {"obj", "m.obj", 'a'},       {"ply", "m.ply", 'b'},   {"plyb", "mb.ply", 'b'},
-    {"stl", "m.stl", 'c'},       {"stlb", "mb.stl", 'c'}, {"gltf2", "m.gltf", 'd'},
-    {"glb2", "m.glb", 'e'},      {"fbx", "m.fbx", 'f'},   {"fbxa", "ma.fbx", 'f'},
-    {"collada", "m.dae", 'g'},   {"3ds", "m.3ds", 'h'},   {"x", "m.x", 'i'},
-    {"assbin", "m.assbin", 'k'}, {"glb", "m1.glb", 'e'},  {"gltf", "m1.gltf", 'd'},
+    {"obj", "m.obj"},       {"ply", "m.ply"},     {"plyb", "mb.ply"},  {"stl", "m.stl"},
+    {"stlb", "mb.stl"},     {"gltf2", "m.gltf"},  {"glb2", "m.glb"},   {"fbx", "m.fbx"},
+    {"fbxa", "ma.fbx"},     {"collada", "m.dae"}, {"3ds", "m.3ds"},    {"x", "m.x"},
+    {"assbin", "m.assbin"}, {"glb", "m1.glb"},    {"gltf", "m1.gltf"}, {"3mf", "m.3mf"},
+    {"stp", "m.stp"},       {"x3d", "mx.x3d"},    {"m3d", "m.m3d"},    {"m3da", "ma.m3d"},
 };
+
+/* The byte before a model that tells the target its extension. */
+static void find_letter(const char *name, char letter[2])
+{
+    const char *extension = strchr(name, '.') + 1;
+    int i = 0;
+    while (fuzz_mesh_extensions[i] && strcmp(fuzz_mesh_extensions[i], extension) != 0)
+        i++;
+    FUZZ_CHECK(fuzz_mesh_extensions[i], "%s is not in the table", extension);
+    letter[0] = (char)('a' + i);
+    letter[1] = '\0';
+}
+
+void seeds_write_model(const char *name, const void *data, size_t size)
+{
+    char seed[4096];
+    find_letter(name, seed);
+    FUZZ_CHECK(size < sizeof seed, "%s is large", name);
+    memcpy(seed + 1, data, size);
+    seeds_write("mesh", name, seed, size + 1);
+}
 
 static void export_models(void)
 {
@@ -32,7 +51,8 @@ static void export_models(void)
     const struct aiScene *scene = aiImportFile("model.obj", 0);
     FUZZ_CHECK(scene, "%s", aiGetErrorString());
     for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
-        const char letter[] = {formats[i].letter, '\0'};
+        char letter[2];
+        find_letter(formats[i].name, letter);
         /* An assimp without this format does without its seed. */
         if (aiExportScene(scene, formats[i].id, formats[i].name, 0) == aiReturn_SUCCESS)
             seeds_take("mesh", formats[i].name, formats[i].name, letter, "");
@@ -43,9 +63,6 @@ static void export_models(void)
     remove("m.mtl");
     remove("m.bin");
     remove("m1.bin");
-    static const char off[] =
-        "jOFF\n4 2 0\n-1 0 1\n1 0 1\n1 0 -1\n-1 1 -1\n3 0 1 2\n3 0 2 3\n";
-    seeds_write("mesh", "m.off", off, sizeof off - 1);
 }
 
 /* Most of what the reader knows: a camera, two nodes, a skin, a morph target, a sparse
@@ -149,6 +166,7 @@ static void write_gltf(void)
 void seeds_write_models(void)
 {
     export_models();
+    seeds_write_for_readers();
     write_glb();
     write_gltf();
 }
