@@ -5,25 +5,26 @@
  */
 #include "conventions.h"
 
-#define DEPTH(renderer_, name_, ...)                                                     \
+/* A renderer, the name of its pass, and what is known of that. */
+#define DEPTH(renderer_, ...)                                                            \
     {                                                                                    \
-        .renderer = renderer_, .name = name_, __VA_ARGS__                                \
+        .kind = IO_PASS_DEPTH, .renderer = renderer_, .name = __VA_ARGS__                \
     }
-#define POSITION(renderer_, name_, ...)                                                  \
+#define POSITION(renderer_, ...)                                                         \
     {                                                                                    \
-        .renderer = renderer_, .name = name_, .kind = IO_PASS_POSITION, __VA_ARGS__      \
+        .kind = IO_PASS_POSITION, .renderer = renderer_, .name = __VA_ARGS__             \
     }
-#define AO(renderer_, name_, ...)                                                        \
+#define AO(renderer_, ...)                                                               \
     {                                                                                    \
-        .renderer = renderer_, .name = name_, .kind = IO_PASS_AO, __VA_ARGS__            \
+        .kind = IO_PASS_AO, .renderer = renderer_, .name = __VA_ARGS__                   \
     }
-#define BENT_NORMAL(renderer_, name_, ...)                                               \
+#define BENT_NORMAL(renderer_, ...)                                                      \
     {                                                                                    \
-        .renderer = renderer_, .name = name_, .kind = IO_PASS_BENT_NORMAL, __VA_ARGS__   \
+        .kind = IO_PASS_BENT_NORMAL, .renderer = renderer_, .name = __VA_ARGS__          \
     }
-#define NORMAL(renderer_, name_, ...)                                                    \
+#define NORMAL(renderer_, ...)                                                           \
     {                                                                                    \
-        .renderer = renderer_, .name = name_, .kind = IO_PASS_NORMAL, __VA_ARGS__        \
+        .kind = IO_PASS_NORMAL, .renderer = renderer_, .name = __VA_ARGS__               \
     }
 
 const io_convention io_conventions[] = {

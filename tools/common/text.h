@@ -5,12 +5,14 @@
 
 #include <stddef.h>
 
+#ifdef __GNUC__
+#define TEXT_PRINTF __attribute__((format(printf, 3, 4)))
+#else
+#define TEXT_PRINTF
+#endif
+
 /* printf to the end of the text in out, whose buffer has `size` bytes; what does not fit
  * is cut off. */
-void append_to(char *out, size_t size, const char *format, ...)
-#ifdef __GNUC__
-    __attribute__((format(printf, 3, 4)))
-#endif
-    ;
+void append_to(char *out, size_t size, const char *format, ...) TEXT_PRINTF;
 
 #endif

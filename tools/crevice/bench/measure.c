@@ -5,6 +5,7 @@
 
 #include "bench/bench.h"
 #include "common/device.h"
+#include "system/memory.h"
 
 enum { STEP_RUNS_MAX = 64 };
 
@@ -16,8 +17,7 @@ typedef struct memory {
 static void *count_allocate(void *user, size_t size, size_t alignment)
 {
     memory *m = user;
-    const size_t whole = (size + alignment - 1) / alignment * alignment;
-    void *bytes = whole < size ? NULL : aligned_alloc(alignment, whole);
+    void *bytes = memory_aligned(size, alignment);
     m->calls++;
     if (bytes)
         m->bytes += (double)size;
@@ -28,7 +28,7 @@ static void count_release(void *user, void *bytes, size_t size)
 {
     memory *m = user;
     m->bytes -= (double)size;
-    free(bytes);
+    memory_release(bytes);
 }
 
 static int open_context(const bench_settings *s, const bench_case *c, memory *m,
