@@ -2,13 +2,15 @@
 # SPDX-License-Identifier: MIT
 # Installs the library, moves the installed tree, and builds and runs a host against it,
 # through CMake's find_package and through pkg-config; then builds one that takes the
-# sources in. Usage: check_package.sh SOURCE WORK CC shared|static
+# sources in. pool: a static library without OpenMP, whose threads are its own.
+# Usage: check_package.sh SOURCE WORK CC shared|static|pool
 set -eu
-source=$1 work=$2 cc=$3 kind=$4
+source=$1 work=$2 cc=$3 kind=$4 openmp=ON
 # The two kinds are built with two generators, so that both are tried.
 case $kind in
 shared) shared=ON generator=Ninja ;;
 static) shared=OFF generator='Unix Makefiles' ;;
+pool) shared=OFF generator=Ninja openmp=OFF ;;
 *)
     echo "unknown kind $kind" >&2
     exit 2
@@ -34,6 +36,7 @@ build()
 echo "-- $kind library, installed"
 configure -S "$source" -B "$work/build" -DBUILD_SHARED_LIBS=$shared -DCMAKE_C_COMPILER="$cc" \
     -DCREVICE_BUILD_TOOLS=OFF -DCREVICE_BUILD_TESTS=OFF -DCREVICE_BUILD_EXAMPLES=OFF \
+    -DCREVICE_OPENMP=$openmp \
     -DCMAKE_INSTALL_PREFIX="$work/first prefix"
 build "$work/build"
 cmake --install "$work/build" >/dev/null
@@ -84,9 +87,18 @@ pkg-config --validate crevice
 eval "$cc -std=c11 \"\$consumer/main.c\" -o \"\$work/consumer_pkgconfig\" \
     $(pkg-config --cflags --libs crevice)"
 LD_LIBRARY_PATH=$libdir "$work/consumer_pkgconfig"
-if [ "$kind" = static ] && readelf -d "$work/consumer_pkgconfig" | grep -q libcrevice; then
+if [ $shared = OFF ] && readelf -d "$work/consumer_pkgconfig" | grep -q libcrevice; then
     echo "the static library was not linked" >&2
     exit 1
+fi
+if [ "$kind" = pool ]; then
+    for host in consumer_cmake/consumer consumer_cxx/consumer consumer_pkgconfig; do
+        if readelf -d "$work/$host" | grep -Eq 'lib(gomp|omp|iomp)'; then
+            echo "$host needs OpenMP, without which the library was built" >&2
+            exit 1
+        fi
+    done
+    exit 0 # the rest is that of the other kinds
 fi
 
 echo "-- add_subdirectory"

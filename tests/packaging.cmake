@@ -38,7 +38,7 @@ style_test(style_msvc ${Python3_EXECUTABLE} ${here}/check_msvc.py ${PROJECT_SOUR
 set_tests_properties(style_msvc PROPERTIES LABELS once) # it compiles the library
 style_test(style_setup bash ${here}/check_setup.sh ${PROJECT_SOURCE_DIR})
 
-foreach(kind shared static)
+foreach(kind shared static pool)
     packaging_test(packaging_${kind} sh ${here}/check_package.sh ${PROJECT_SOURCE_DIR}
         ${CMAKE_CURRENT_BINARY_DIR}/packaging_${kind} ${CMAKE_C_COMPILER} ${kind})
 endforeach()
