@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "ao_camera.h"
+#include "common/frame_camera.h"
 #include "common/camera_file.h"
 
 static char path[64];
@@ -170,10 +170,10 @@ static void test_frames(void **state)
     assert_null(camera_file_find(&file, true, 6, "it", NULL));
     camera_file_free(&file);
     int32_t number = 0;
-    assert_true(ao_camera_number("a9/shot_v2.0012.exr", &number) && number == 12);
-    assert_true(ao_camera_number("shot.-3.exr", &number) && number == -3);
-    assert_true(ao_camera_number("shot-3.exr", &number) && number == 3);
-    assert_false(ao_camera_number("a9/shot.exr", &number));
+    assert_true(frame_camera_number("a9/shot_v2.0012.exr", &number) && number == 12);
+    assert_true(frame_camera_number("shot.-3.exr", &number) && number == -3);
+    assert_true(frame_camera_number("shot-3.exr", &number) && number == 3);
+    assert_false(frame_camera_number("a9/shot.exr", &number));
 }
 
 int main(void)

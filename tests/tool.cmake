@@ -14,7 +14,7 @@ crevice_test(test_tool_args
 target_include_directories(test_tool_args PRIVATE ${tool_dir} ${PROJECT_SOURCE_DIR}/tools)
 
 crevice_test(test_tool_camera
-    SOURCES test_tool_camera.c ${tool_dir}/ao_camera.c LIBS crevice_common)
+    SOURCES test_tool_camera.c LIBS crevice_common)
 target_compile_definitions(test_tool_camera PRIVATE _XOPEN_SOURCE=700)
 target_include_directories(test_tool_camera PRIVATE ${tool_dir} ${PROJECT_SOURCE_DIR}/tools)
 

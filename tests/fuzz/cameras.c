@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "ao_camera.h"
+#include "common/frame_camera.h"
 
 static void check_entry(const camera_entry *e)
 {
@@ -40,11 +40,11 @@ void fuzz_cameras(const uint8_t *data, size_t size)
     FUZZ_CHECK(file.count > 0, "no camera");
     for (int32_t i = 0; i < file.count; i++)
         check_entry(&file.entries[i]);
-    const ao_frame frame = {
+    const camera_frame frame = {
         .has_number = true, .number = file.entries[0].frame, .path = "shot.1.exr"};
-    const ao_settings settings = {.input = frame.path};
+    const frame_camera_settings settings = {0};
     io_passes_request request = {.depth_format = crv_depth_format_planar()};
-    const int set = ao_camera_set(&settings, &file, &frame, &request, &r);
+    const int set = frame_camera_set(&settings, &file, &frame, &request, &r);
     FUZZ_CHECK(r.errors == (set != EXIT_DONE), "exit code %d, %d lines", set, r.errors);
     camera_file_free(&file);
 }

@@ -3,16 +3,15 @@
 #ifndef TOOL_AO_SETTINGS_H
 #define TOOL_AO_SETTINGS_H
 
+#include "common/frame_camera.h"
 #include "common/pass_args.h"
 
 typedef struct ao_settings {
     common_settings common;
     const char *input, *output, *frames;
     pass_settings passes;
-    const char *camera; /* file of cameras */
-    arg_int camera_order;
+    frame_camera_settings camera;
     arg_int layer_kind;
-    arg_number vfov_deg, hfov_deg, lens_mm, sensor_mm, ortho;
     arg_int radius_frame, jobs, aa;
     arg_int bits;
     bool half, skip_existing, crop;

@@ -5,7 +5,6 @@
 #include "ao_settings.h"
 #include "frame_copy.h"
 #include "commands.h"
-#include "common/camera_file.h"
 #include "common/estimate.h"
 #include "shot.h"
 #include "system/file.h"
@@ -136,54 +135,12 @@ static const arg pass_rows[] = {
 };
 static const arg_table pass_table = ARG_TABLE("Passes", pass_rows);
 
-static const char *const found_words[] = {"fit", NULL};
-
 static const arg camera_rows[] = {
-    {.name = "--camera",
-     .value = "FILE",
-     ARG_INTO(ARG_TEXT, ao_settings, camera),
-     .help = "cameras by frame: .json, as `crevice gbuffer` writes it, or Nuke's .chan; "
-             "`crevice help camera` says what may stand in them"},
-    {.name = "--camera-order",
-     .value = "ORDER",
-     .choices = camera_file_orders,
-     .initial = "zxy",
-     ARG_INTO(ARG_CHOICE, ao_settings, camera_order),
-     .help = "the order in which a .chan's rotations are applied"},
-    {.name = "--vfov",
-     .value = "DEG",
-     .choices = found_words,
-     ARG_RANGE(0.1, 179.0),
-     .unit = "degrees",
-     ARG_INTO(ARG_NUMBER, ao_settings, vfov_deg),
-     .computed = "from the file's metadata",
-     .help = "full vertical field of view; fit: find the one at which normals and depth "
-             "agree, for all frames of a shot"},
-    {.name = "--hfov",
-     .value = "DEG",
-     ARG_RANGE(0.1, 179.0),
-     .unit = "degrees",
-     ARG_INTO(ARG_NUMBER, ao_settings, hfov_deg),
-     .help = "full horizontal field of view, instead of --vfov"},
-    {.name = "--lens",
-     .value = "MM",
-     ARG_RANGE(1e-3, 1e6),
-     .unit = "mm",
-     ARG_INTO(ARG_NUMBER, ao_settings, lens_mm),
-     .help = "focal length, instead of --vfov; with --sensor"},
-    {.name = "--sensor",
-     .value = "MM",
-     ARG_RANGE(1e-3, 1e6),
-     .unit = "mm",
-     .initial = "36",
-     ARG_INTO(ARG_NUMBER, ao_settings, sensor_mm),
-     .help = "width of the sensor that --lens belongs to"},
-    {.name = "--ortho",
-     .value = "HEIGHT",
-     ARG_RANGE(1e-9, 1e9),
-     .unit = "scene units",
-     ARG_INTO(ARG_NUMBER, ao_settings, ortho),
-     .help = "orthographic view of this height, instead of --vfov"},
+    FRAME_CAMERA_FILE_ROW(ao_settings, camera),
+    FRAME_CAMERA_ORDER_ROW(ao_settings, camera),
+    FRAME_CAMERA_VFOV_ROW(ao_settings, camera),
+    FRAME_CAMERA_LENS_ROWS(ao_settings, camera),
+    FRAME_CAMERA_ORTHO_ROW(ao_settings, camera),
 };
 static const arg_table camera_table = ARG_TABLE("Camera", camera_rows);
 
@@ -227,19 +184,6 @@ static const char *frames_mistake(const ao_settings *s, frame_list *list)
     return NULL;
 }
 
-static const char *camera_mistake(const ao_settings *s)
-{
-    if (s->ortho.given && (s->vfov_deg.given || s->hfov_deg.given || s->lens_mm.given))
-        return "--ortho: contradicts --vfov, --hfov and --lens; give one of them";
-    if (s->vfov_deg.given + s->hfov_deg.given + s->lens_mm.given > 1)
-        return "--vfov: contradicts --hfov and --lens; give one of them";
-    if (s->camera_order.given && !s->camera)
-        return "--camera-order: is for --camera; add that";
-    if (s->sensor_mm.given && !s->lens_mm.given)
-        return "--sensor: is for --lens; add that";
-    return NULL;
-}
-
 static const char *shot_mistake(const ao_settings *s)
 {
     if (s->radius_frame.given && s->common.radius_given)
@@ -255,11 +199,11 @@ static const char *shot_mistake(const ao_settings *s)
 
 static int check(const ao_settings *s, frame_list *list, view_list *views, report *r)
 {
-    const char *mistake = pass_mistake(&s->passes, s->ortho.given);
+    const char *mistake = pass_mistake(&s->passes, s->camera.ortho.given);
     if (!mistake && estimate_is_of_relief(&s->common.options))
         mistake = "--characteristic field: frames have no relief; leave it out";
     if (!mistake)
-        mistake = camera_mistake(s);
+        mistake = frame_camera_mistake(&s->camera);
     if (!mistake)
         mistake = shot_mistake(s);
     if (!mistake)
@@ -279,16 +223,7 @@ static io_passes_request make_request(const ao_settings *s)
 {
     io_passes_request request = pass_request(&s->passes);
     request.keep_overscan = !s->crop;
-    request.fit_vfov = s->vfov_deg.given && isnan(s->vfov_deg.value);
-    if (s->vfov_deg.given && !request.fit_vfov)
-        request.vfov_rad = (float)(s->vfov_deg.value * 3.14159265358979323846 / 180.0);
-    if (s->hfov_deg.given)
-        request.hfov_rad = (float)(s->hfov_deg.value * 3.14159265358979323846 / 180.0);
-    if (s->lens_mm.given)
-        request.hfov_rad =
-            (float)(2.0 * atan(0.5 * s->sensor_mm.value / s->lens_mm.value));
-    if (s->ortho.given)
-        request.view_height = (float)s->ortho.value;
+    frame_camera_share(&s->camera, &request);
     return request;
 }
 

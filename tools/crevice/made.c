@@ -50,15 +50,15 @@ void made_describe(const ao_settings *s, const crv_options *o, float vfov_rad,
     append_number(made, "near", &s->passes.z_near);
     append_number(made, "far", &s->passes.z_far);
     append_number(made, "background", &s->passes.background);
-    append_number(made, "vfov", &s->vfov_deg);
-    if (s->vfov_deg.given && isnan(s->vfov_deg.value))
+    append_number(made, "vfov", &s->camera.vfov_deg);
+    if (s->camera.vfov_deg.given && isnan(s->camera.vfov_deg.value))
         append(made, ",%.9g", (double)vfov_rad);
-    append_number(made, "hfov", &s->hfov_deg);
-    append_number(made, "lens", &s->lens_mm);
-    append_number(made, "sensor", &s->sensor_mm);
-    append_number(made, "ortho", &s->ortho);
-    if (s->camera)
-        append(made, " camera=%016" PRIx64 ",%d", cameras, (int)s->camera_order.value);
+    append_number(made, "hfov", &s->camera.hfov_deg);
+    append_number(made, "lens", &s->camera.lens_mm);
+    append_number(made, "sensor", &s->camera.sensor_mm);
+    append_number(made, "ortho", &s->camera.ortho);
+    if (s->camera.file)
+        append(made, " camera=%016" PRIx64 ",%d", cameras, (int)s->camera.order.value);
     append(made, " exact=%d half=%d bits=%d crop=%d", s->common.exact, s->half,
            s->bits.value == 0 ? 8 : 16, s->crop);
     if (s->aa.value > 1)

@@ -114,9 +114,9 @@ int shot_run(const ao_settings *settings, const io_passes_request *request,
               .options = settings->common.options,
               .has_radius = settings->common.radius_given,
               .part = {.count = 1}};
-    int result = settings->camera ? camera_file_load(
-                     settings->camera, settings->camera_order.value, &t.cameras, r)
-                                  : EXIT_DONE;
+    int result = settings->camera.file ? camera_file_load(
+                     settings->camera.file, settings->camera.order.value, &t.cameras, r)
+                                       : EXIT_DONE;
     if (result != EXIT_DONE)
         return result;
     shot_use_view(&t, 0);

@@ -2,7 +2,6 @@
 /* shot_load.c: frames, read as their shot reads them. */
 #include "shot_state.h"
 
-#include "ao_camera.h"
 #include "masks.h"
 
 enum { LOOKED_AT = 5 };
@@ -11,11 +10,11 @@ enum { LOOKED_AT = 5 };
 static int request_frame(const shot *t, const frame_paths *paths,
                          io_passes_request *request, report *r)
 {
-    const ao_frame frame = {paths->has_number, paths->number, paths->input};
+    const camera_frame frame = {paths->has_number, paths->number, paths->input};
     *request = t->request;
-    return t->settings->camera
-               ? ao_camera_set(t->settings, &t->cameras, &frame, request, r)
-               : EXIT_DONE;
+    const frame_camera_settings *camera = &t->settings->camera;
+    return camera->file ? frame_camera_set(camera, &t->cameras, &frame, request, r)
+                        : EXIT_DONE;
 }
 
 static int load(const shot *t, const frame_paths *paths, io_frame *frame, report *r)

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "ao_camera.h"
+#include "common/frame_camera.h"
 #include "frame_copy.h"
 
 /* Fills the place of the view in a name, which is there or not. */
@@ -33,7 +33,7 @@ int shot_name_single(const shot *t, frame_paths *paths, report *r)
     const ao_settings *s = t->settings;
     const bool fits = views_name(s->input, t->view, paths->input, sizeof paths->input);
     if (fits && views_name(s->output, t->view, paths->output, sizeof paths->output)) {
-        paths->has_number = ao_camera_number(paths->input, &paths->number);
+        paths->has_number = frame_camera_number(paths->input, &paths->number);
         return EXIT_DONE;
     }
     report_error(r, "%s: the name is too long; shorten it", fits ? "-o" : "IN");

@@ -1,12 +1,44 @@
 /* SPDX-License-Identifier: MIT */
-#include "ao_camera.h"
+#include "frame_camera.h"
 
 #include <ctype.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-int ao_camera_set(const ao_settings *s, const camera_file *file, const ao_frame *frame,
-                  io_passes_request *request, report *r)
+static const double degree = 3.14159265358979323846 / 180.0;
+
+const char *const frame_camera_found[] = {"fit", NULL};
+
+const char *frame_camera_mistake(const frame_camera_settings *s)
+{
+    if (s->ortho.given && (s->vfov_deg.given || s->hfov_deg.given || s->lens_mm.given))
+        return "--ortho: contradicts --vfov, --hfov and --lens; give one of them";
+    if (s->vfov_deg.given + s->hfov_deg.given + s->lens_mm.given > 1)
+        return "--vfov: contradicts --hfov and --lens; give one of them";
+    if (s->order.given && !s->file)
+        return "--camera-order: is for --camera; add that";
+    if (s->sensor_mm.given && !s->lens_mm.given)
+        return "--sensor: is for --lens; add that";
+    return NULL;
+}
+
+void frame_camera_share(const frame_camera_settings *s, io_passes_request *request)
+{
+    request->fit_vfov = s->vfov_deg.given && isnan(s->vfov_deg.value);
+    if (s->vfov_deg.given && !request->fit_vfov)
+        request->vfov_rad = (float)(s->vfov_deg.value * degree);
+    if (s->hfov_deg.given)
+        request->hfov_rad = (float)(s->hfov_deg.value * degree);
+    if (s->lens_mm.given)
+        request->hfov_rad =
+            (float)(2.0 * atan(0.5 * s->sensor_mm.value / s->lens_mm.value));
+    if (s->ortho.given)
+        request->view_height = (float)s->ortho.value;
+}
+
+int frame_camera_set(const frame_camera_settings *s, const camera_file *file,
+                     const camera_frame *frame, io_passes_request *request, report *r)
 {
     const camera_entry *entry =
         camera_file_find(file, frame->has_number, frame->number, frame->path, r);
@@ -36,7 +68,7 @@ int ao_camera_set(const ao_settings *s, const camera_file *file, const ao_frame 
     return EXIT_DONE;
 }
 
-bool ao_camera_number(const char *path, int32_t *number)
+bool frame_camera_number(const char *path, int32_t *number)
 {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
     const char *dot = strrchr(name, '.');
