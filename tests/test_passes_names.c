@@ -154,8 +154,7 @@ static void test_find_pass(void **state)
     io_image image;
     for (size_t i = 0; i < io_convention_count; i++) {
         const io_convention *row = &io_conventions[i];
-        const bool vector = row->kind == IO_PASS_NORMAL || row->kind == IO_PASS_POSITION
-                            || row->kind == IO_PASS_BENT_NORMAL;
+        const bool vector = row->kind != IO_PASS_DEPTH && row->kind != IO_PASS_AO;
         char text[5][128];
         const char *names[5] = {text[0], text[1], text[2], text[3], text[4]};
         for (int c = 0; c < 3; c++)
@@ -181,6 +180,27 @@ static void test_find_pass(void **state)
         assert_int_equal(io_find_pass(&image, IO_PASS_DEPTH, found), 0);
         io_image_free(&image);
     }
+}
+
+/* The picture: rows before a lone R, G, B; a red alone is none. */
+static void test_find_beauty(void **state)
+{
+    (void)state;
+    static const char *const names[] = {
+        "R", "G", "B", "V.Combined.R", "V.Combined.G", "V.Combined.B"};
+    const char *found[3];
+    io_image image;
+    assert_int_equal(io_image_init(&image, 1, 1, names, 6, NULL), 0);
+    assert_int_equal(io_find_pass(&image, IO_PASS_BEAUTY, found), 3);
+    assert_string_equal(found[2], "V.Combined.B");
+    io_image_free(&image);
+    assert_int_equal(io_image_init(&image, 1, 1, names, 5, NULL), 0);
+    assert_int_equal(io_find_pass(&image, IO_PASS_BEAUTY, found), 3);
+    assert_string_equal(found[2], "B");
+    io_image_free(&image);
+    assert_int_equal(io_image_init(&image, 1, 1, names, 2, NULL), 0);
+    assert_int_equal(io_find_pass(&image, IO_PASS_BEAUTY, found), 0);
+    io_image_free(&image);
 }
 
 /* As for depth, the left eye stands for a frame of both. */
@@ -278,6 +298,7 @@ int main(void)
         cmocka_unit_test(test_only_channel),
         cmocka_unit_test(test_conventions),
         cmocka_unit_test(test_find_pass),
+        cmocka_unit_test(test_find_beauty),
         cmocka_unit_test(test_positions_of_eyes),
         cmocka_unit_test(test_choice_by_name),
         cmocka_unit_test(test_layers),

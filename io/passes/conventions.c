@@ -22,6 +22,10 @@
     {                                                                                    \
         .kind = IO_PASS_BENT_NORMAL, .renderer = renderer_, .name = __VA_ARGS__          \
     }
+#define BEAUTY(renderer_, ...)                                                           \
+    {                                                                                    \
+        .kind = IO_PASS_BEAUTY, .renderer = renderer_, .name = __VA_ARGS__               \
+    }
 #define NORMAL(renderer_, ...)                                                           \
     {                                                                                    \
         .kind = IO_PASS_NORMAL, .renderer = renderer_, .name = __VA_ARGS__               \
@@ -75,6 +79,15 @@ const io_convention io_conventions[] = {
     AO("any", "Occlusion"),
 
     BENT_NORMAL("Crevice", "bent", .axes = "world or view"),
+
+    BEAUTY("Blender", "Combined"),
+    BEAUTY("Arnold", "RGBA"),
+    BEAUTY("any", "Beauty"),
+    BEAUTY("Unreal", "FinalImage"),
+    BEAUTY("Karma, Mantra", "C"),
+    BEAUTY("RenderMan", "Ci"),
+    BEAUTY("V-Ray", "RGB_color"),
+    BEAUTY("any", "rgb"),
 
     NORMAL("Arnold, Redshift, Karma, Mantra, Cycles", "N", .axes = "world"),
     NORMAL("Blender", "Normal", .axes = "world, right-handed, z up"),

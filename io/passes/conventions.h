@@ -11,7 +11,8 @@ typedef enum io_pass_kind {
     IO_PASS_NORMAL,
     IO_PASS_POSITION,
     IO_PASS_AO,
-    IO_PASS_BENT_NORMAL
+    IO_PASS_BENT_NORMAL,
+    IO_PASS_BEAUTY /* the picture itself: linear red, green, blue */
 } io_pass_kind;
 
 /* A text that is NULL is not fixed by the renderer: the frame's numbers tell. */

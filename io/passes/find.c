@@ -68,6 +68,39 @@ static int find_bent_normals(const io_image *probed, const char *found[3])
     return best < IO__NO_MATCH ? 3 : 0;
 }
 
+/* Whether the channel is a red with a green and a blue beside it, which it fills in. */
+static bool find_colours(const io_image *probed, const char *red, const char *found[3])
+{
+    char name[IO_NAME_SIZE];
+    const size_t last = strlen(red) - 1;
+    found[0] = red;
+    for (int c = 1; c < 3; c++) {
+        memcpy(name, red, last + 2);
+        name[last] = red[last] == 'R' ? "RGB"[c] : "rgb"[c];
+        found[c] = io__find_name(probed, name);
+    }
+    return found[1] && found[2];
+}
+
+/* A lone R, G, B comes after the rows of the table. */
+static int find_beauty(const io_image *probed, const char *found[3])
+{
+    int best = IO__NO_MATCH;
+    for (int32_t i = 0; i < probed->channel_count; i++) {
+        const char *name = probed->channels[i].name, *colours[3];
+        const io__pieces s = io__split_channel(name, true);
+        const bool is_lone = text_is_same(name, "R");
+        const int row =
+            text_is_same(s.component, "R") ? io__row_of(&s, IO_PASS_BEAUTY) : -1;
+        const int rank = is_lone ? IO__LOOKS_LIKE : row >= 0 ? row : IO__NO_MATCH;
+        if (rank < best && find_colours(probed, name, colours)) {
+            best = rank;
+            memcpy(found, colours, sizeof colours);
+        }
+    }
+    return best < IO__NO_MATCH ? 3 : 0;
+}
+
 int io_find_pass(const io_image *probed, io_pass_kind kind, const char *found[3])
 {
     const io_passes_request request = {0};
@@ -76,6 +109,8 @@ int io_find_pass(const io_image *probed, io_pass_kind kind, const char *found[3]
         return find_ao(probed, found);
     if (kind == IO_PASS_BENT_NORMAL)
         return find_bent_normals(probed, found);
+    if (kind == IO_PASS_BEAUTY)
+        return find_beauty(probed, found);
     if (io__choose_depth("", probed, &request, &names, NULL))
         return 0;
     /* A lone Y may be anything. */

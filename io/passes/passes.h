@@ -110,7 +110,8 @@ int io_frame_load(const char *path, const io_passes_request *request, io_frame *
 /*
  * The channels of a probed file's pass, by the names that renderers use: one for depth
  * and ambient occlusion, x, y and z for normals, bent normals and, if there is no depth,
- * positions. Returns how many, 0 if there is none. The names point into the image.
+ * positions, red, green and blue for the picture itself. Returns how many, 0 if there is
+ * none. The names point into the image.
  */
 int io_find_pass(const io_image *probed, io_pass_kind kind, const char *found[3]);
 

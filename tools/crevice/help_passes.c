@@ -41,6 +41,9 @@ void help_passes(FILE *out)
     print_rows(out, IO_PASS_AO);
     fprintf(out, "\nBent normals, which `crevice compare` takes, as NAME.X .Y .Z:\n");
     print_rows(out, IO_PASS_BENT_NORMAL);
+    fprintf(out, "\nThe picture itself, which `crevice view` shows with its ambient "
+                 "occlusion, as NAME.R .G .B or\nR, G, B:\n");
+    print_rows(out, IO_PASS_BEAUTY);
     fprintf(out, "\nOther names are taken if they contain \"depth\", \"position\", "
                  "\"normal\" or \"occlusion\"; "
                  "--depth and --normal choose any.\n");
