@@ -28,6 +28,20 @@ const char *option_value_text(const crv_option *option, double value, char out[6
     return out;
 }
 
+const char *option_tooltip(const crv_option *option, const crv_method *method,
+                           double usual, char out[OPTION_TOOLTIP_SIZE])
+{
+    char values[256], initial[64];
+    help_option_values(option, values, sizeof values);
+    if (usual > 0.0)
+        option_value_text(option, usual, initial);
+    else
+        help_option_default(option, method, initial, sizeof initial);
+    snprintf(out, OPTION_TOOLTIP_SIZE, "%s\n%s\ndefault %s%s", option->help, values,
+             initial, usual > 0.0 ? ", that of the first view" : "");
+    return out;
+}
+
 const char *option_lines(const crv_options *o, char out[OPTION_TEXT_SIZE])
 {
     out[0] = '\0';

@@ -14,7 +14,6 @@
 
 static const double degree = 3.14159265358979323846 / 180.0;
 
-/* In the order of crv_layers. */
 /* Pixels times layers from which on ray casting may take longer than ten seconds; the
  * trial has 1 / TRIAL_SHARE of each side. */
 #define MANY_SAMPLES 4e6
@@ -25,52 +24,14 @@ static const double degree = 3.14159265358979323846 / 180.0;
 #define WAIT_SECONDS          10.0
 enum { TRIAL_SHARE = 12 };
 
+/* In the order of crv_layers. */
 static const char *const layer_kinds[] = {"surfaces", "solid", NULL};
 static const char *const normal_kinds[] = {"interpolated", "face", NULL};
 
-static const arg camera_rows[] = {
-    {.name = "--size",
-     .value = "WxH",
-     .initial = "1280x720",
-     ARG_INTO(ARG_SIZE, view_settings, size),
-     .help = "size of the picture"},
-    {.name = "--camera",
-     .value = "NAME",
-     ARG_INTO(ARG_TEXT, view_settings, camera),
-     .help = "a camera of the model (glTF, FBX, ...), by its name or its number from 1, "
-             "or a file of one camera, .json or .chan, instead of --eye, --target and "
-             "--up"},
-    {.name = "--eye",
-     .value = "X,Y,Z",
-     .unit = "in scene units",
-     ARG_INTO(ARG_VECTOR, view_settings, eye),
-     .computed = "framed",
-     .help = "where the camera is"},
-    {.name = "--target",
-     .value = "X,Y,Z",
-     .unit = "in scene units",
-     ARG_INTO(ARG_VECTOR, view_settings, target),
-     .computed = "the scene's centre",
-     .help = "the point that it looks at"},
-    {.name = "--up",
-     .value = "X,Y,Z",
-     ARG_INTO(ARG_VECTOR, view_settings, up),
-     .computed = "0,1,0",
-     .help = "the direction that is up in the picture"},
-    {.name = "--vfov",
-     .value = "DEG",
-     ARG_RANGE(0.1, 179.0),
-     .unit = "degrees",
-     ARG_INTO(ARG_NUMBER, view_settings, vfov_deg),
-     .computed = "45",
-     .help = "full vertical field of view"},
-    {.name = "--ortho",
-     .value = "HEIGHT",
-     ARG_RANGE(1e-9, 1e9),
-     .unit = "scene units",
-     ARG_INTO(ARG_NUMBER, view_settings, ortho),
-     .help = "orthographic view of this height, instead of --vfov"},
-};
+static const arg camera_rows[] = {VIEW_CAMERA_ROWS(
+    NULL, "45",
+    "a camera of the model (glTF, FBX, ...), by its name or its number from 1, or a file "
+    "of one camera, .json or .chan, instead of --eye, --target and --up")};
 const arg_table view_camera =
     ARG_TABLE("Camera (framed by itself without these)", camera_rows);
 

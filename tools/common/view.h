@@ -32,6 +32,49 @@ extern const arg_table view_buffers; /* --layers ... */
         .help = "give up a model file whose reader takes longer"                         \
     }
 
+/* The rows of the camera, of settings that begin with view_settings. found_: the word
+ * that may stand for --vfov, or NULL; vfov_: its default; help_: of --camera. */
+#define VIEW_CAMERA_ROWS(found_, vfov_, help_)                                           \
+    {.name = "--size",                                                                   \
+     .value = "WxH",                                                                     \
+     .initial = "1280x720",                                                              \
+     ARG_INTO(ARG_SIZE, view_settings, size),                                            \
+     .help = "size of the picture"},                                                     \
+        {.name = "--camera",                                                             \
+         .value = "NAME",                                                                \
+         ARG_INTO(ARG_TEXT, view_settings, camera),                                      \
+         .help = help_},                                                                 \
+        {.name = "--eye",                                                                \
+         .value = "X,Y,Z",                                                               \
+         .unit = "in scene units",                                                       \
+         ARG_INTO(ARG_VECTOR, view_settings, eye),                                       \
+         .computed = "framed",                                                           \
+         .help = "where the camera is"},                                                 \
+        {.name = "--target",                                                             \
+         .value = "X,Y,Z",                                                               \
+         .unit = "in scene units",                                                       \
+         ARG_INTO(ARG_VECTOR, view_settings, target),                                    \
+         .computed = "the scene's centre",                                               \
+         .help = "the point that it looks at"},                                          \
+        {.name = "--up",                                                                 \
+         .value = "X,Y,Z",                                                               \
+         ARG_INTO(ARG_VECTOR, view_settings, up),                                        \
+         .computed = "0,1,0",                                                            \
+         .help = "the direction that is up in the picture"},                             \
+        {.name = "--vfov",                                                               \
+         .value = "DEG",                                                                 \
+         .choices = found_,                                                              \
+         ARG_RANGE(0.1, 179.0),                                                          \
+         .unit = "degrees",                                                              \
+         ARG_INTO(ARG_NUMBER, view_settings, vfov_deg),                                  \
+         .computed = vfov_,                                                              \
+         .help = "full vertical field of view"},                                         \
+    {                                                                                    \
+        .name = "--ortho", .value = "HEIGHT", ARG_RANGE(1e-9, 1e9),                      \
+        .unit = "scene units", ARG_INTO(ARG_NUMBER, view_settings, ortho),               \
+        .help = "orthographic view of this height, instead of --vfov"                    \
+    }
+
 #define VIEW_MODEL_ROW                                                                   \
     {                                                                                    \
         .name = "MODEL", .type = ARG_TEXT, .required = true,                             \

@@ -25,9 +25,29 @@ static const arg_table input_table = ARG_TABLE("Input", input_rows);
 static const arg pass_rows[] = {PASS_ROWS(viewer_settings, passes)};
 static const arg_table pass_table = ARG_TABLE("Passes of frames", pass_rows);
 
-static const arg_table *const tables[] = {&input_table,       &pass_table,   &view_camera,
-                                          &view_buffers,      &args_threads, &args_device,
-                                          &args_output_lines, NULL};
+static const arg camera_rows[] = {
+    VIEW_CAMERA_ROWS(frame_camera_found, "45; of a frame: from the file's metadata",
+                     "a camera of the model, by its name or its number from 1, or a file "
+                     "of one camera, .json or .chan, instead of --eye, --target and "
+                     "--up; of frames: a file of cameras by frame"),
+    FRAME_CAMERA_ORDER_ROW(viewer_settings, lens),
+    FRAME_CAMERA_LENS_ROWS(viewer_settings, lens),
+};
+static const arg_table camera_table =
+    ARG_TABLE("Camera (framed by itself without these)", camera_rows);
+
+frame_camera_settings viewer_frame_camera(const viewer_settings *s)
+{
+    frame_camera_settings camera = s->lens;
+    camera.file = s->view.camera;
+    camera.vfov_deg = s->view.vfov_deg;
+    camera.ortho = s->view.ortho;
+    return camera;
+}
+
+static const arg_table *const tables[] = {
+    &input_table,  &pass_table,  &camera_table,      &view_buffers,
+    &args_threads, &args_device, &args_output_lines, NULL};
 
 static const char *const examples[] = {
     "a mesh, the default method beside the truth",

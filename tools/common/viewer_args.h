@@ -3,14 +3,19 @@
 #ifndef TOOL_VIEWER_ARGS_H
 #define TOOL_VIEWER_ARGS_H
 
+#include "frame_camera.h"
 #include "pass_args.h"
 #include "view.h"
 
 typedef struct viewer_settings {
     view_settings view; /* its model may be a frame, too */
     const char *frames, *script;
-    pass_settings passes; /* of frames */
+    pass_settings passes;       /* of frames */
+    frame_camera_settings lens; /* of frames: what `view` has no member for */
 } viewer_settings;
+
+/* How frames are told their camera; the strings stay those of s. */
+frame_camera_settings viewer_frame_camera(const viewer_settings *s);
 
 /* Its `run` is NULL: see command.program. */
 extern const command command_view;

@@ -49,5 +49,6 @@ void buffers_release(buffers *b)
         return;
     scene_gbuffer_free(&b->g);
     free(b->surface);
+    free(b->beauty);
     free(b);
 }

@@ -8,7 +8,9 @@
 typedef struct buffers {
     scene_gbuffer g;
     int32_t width, height; /* px, inside the guard band */
-    uint8_t *surface;      /* 1 for each pixel inside the guard band that shows one */
+    float *beauty;    /* owned; linear light, three floats for each pixel inside the guard
+                      band; NULL: there is none */
+    uint8_t *surface; /* 1 for each pixel inside the guard band that shows one */
     atomic_int holders;
 } buffers;
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "command_text.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -8,6 +9,8 @@
 #include "common/option_text.h"
 #include "common/target.h"
 #include "common/text.h"
+
+static const double degree = 3.14159265358979323846 / 180.0;
 
 /* As one word of a shell. */
 static void append_word(char out[COMMAND_SIZE], const char *word)
@@ -80,18 +83,37 @@ static void append_passes(char out[COMMAND_SIZE], const pass_settings *p)
     append_number(out, "--background", &p->background);
 }
 
+/* A field of view that was found is told as it is: one frame need not find it again. */
+static void append_camera(char out[COMMAND_SIZE], const source *s)
+{
+    const frame_camera_settings *c = &s->camera;
+    char number[32];
+    append_text(out, "--camera", c->file);
+    if (c->order.given)
+        append_text(out, "--camera-order", camera_file_orders[c->order.value]);
+    if (c->vfov_deg.given && isnan(c->vfov_deg.value))
+        append_to(out, COMMAND_SIZE, " --vfov %s",
+                  s->request.vfov_rad > 0.0f
+                      ? exact_number(s->request.vfov_rad, degree, number)
+                      : "fit");
+    else if (c->vfov_deg.given)
+        append_to(out, COMMAND_SIZE, " --vfov %s",
+                  exact_number((float)c->vfov_deg.value, 1.0, number));
+    append_number(out, "--hfov", &c->hfov_deg);
+    append_number(out, "--lens", &c->lens_mm);
+    append_number(out, "--sensor", &c->sensor_mm);
+    if (c->ortho.given)
+        append_to(out, COMMAND_SIZE, " --ortho %s",
+                  exact_number((float)c->ortho.value, 1.0, number));
+}
+
 static void append_frame(char out[COMMAND_SIZE], const source *s, const wish *w)
 {
     const view_settings *v = s->settings;
-    char path[4096], number[32];
+    char path[4096];
     const char *name = source_frame_name(s, w->frame, path, sizeof path);
     append_word(out, name ? name : v->model);
-    if (v->vfov_deg.given)
-        append_to(out, COMMAND_SIZE, " --vfov %s",
-                  exact_number((float)v->vfov_deg.value, 1.0, number));
-    if (v->ortho.given)
-        append_to(out, COMMAND_SIZE, " --ortho %s",
-                  exact_number((float)v->ortho.value, 1.0, number));
+    append_camera(out, s);
     if (v->layer_kind.given)
         append_text(out, "--layer-kind", v->layer_kind.value == 0 ? "surfaces" : "solid");
     append_passes(out, s->passes);
@@ -124,6 +146,19 @@ static void append_content(char out[COMMAND_SIZE], const source *s, const wish *
     append_to(out, COMMAND_SIZE, " -o %s", output);
 }
 
+/* The frame's picture is named as a layer if it is one. */
+static void append_apply(char out[COMMAND_SIZE], const source *s)
+{
+    char names[3 * IO_NAME_SIZE];
+    const size_t length = strlen(s->beauty[0]);
+    if (length > 2 && s->beauty[0][length - 2] == '.')
+        snprintf(names, sizeof names, "%.*s", (int)(length - 2), s->beauty[0]);
+    else
+        snprintf(names, sizeof names, "%s,%s,%s", s->beauty[0], s->beauty[1],
+                 s->beauty[2]);
+    append_text(out, "--apply", names);
+}
+
 static const char *reason(const source *s, const wish *w, int half)
 {
     const half_wish *own = &w->half[half];
@@ -133,8 +168,10 @@ static const char *reason(const source *s, const wish *w, int half)
             return "# no command traces rays through the depth of a frame";
     if (own->look == LOOK_LIT && own->content == HALF_TRUTH)
         return "# no command lights a mesh with its ray-traced accessibility";
-    if (own->content == HALF_OPEN && (own->look == LOOK_ACCESSIBILITY || !s->model))
+    if (own->content == HALF_OPEN && own->look == LOOK_ACCESSIBILITY)
         return "# every pixel is 1";
+    if (own->content == HALF_OPEN && own->look == LOOK_LIT && !s->model)
+        return "# the frame's picture as it is";
     if (difference
         && (w->half[0].content == HALF_OPEN || w->half[1].content == HALF_OPEN))
         return "# one half is 1 everywhere: there is no file to compare with";
@@ -156,6 +193,10 @@ const char *command_text(const source *s, const wish *w, int half, char out[COMM
                   " && crevice compare left.exr right.exr --heat-scale %.6g --heat-map "
                   "difference.png",
                   w->heat_scale);
+    } else if (own->look == LOOK_LIT && !s->model && s->has_beauty) {
+        char apply[COMMAND_SIZE] = "";
+        append_apply(apply, s);
+        append_content(out, s, w, half, apply, "lit.exr");
     } else if (own->look == LOOK_LIT && s->model) {
         append_content(out, s, w, half,
                        own->content == HALF_OPEN ? " --shade lit-no-ao" : " --shade lit",

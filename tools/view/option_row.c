@@ -102,14 +102,15 @@ static char *title_of(const crv_option *option)
     return title;
 }
 
-static char *tooltip_of(const crv_option *option)
+/* Meaning, range and default, as the tool's help has them. */
+static void sync_tooltip(option_row *row, const crv_method *method)
 {
-    char low[64], high[64];
-    if (option->type == CRV_OPTION_BOOL || option->type == CRV_OPTION_CHOICE)
-        return g_strdup(option->help);
-    return g_strdup_printf("%s\n%s to %s %s", option->help,
-                           option_value_text(option, option->min, low),
-                           option_value_text(option, option->max, high), option->unit);
+    char text[OPTION_TOOLTIP_SIZE];
+    if (row->method == method)
+        return;
+    row->method = method;
+    gtk_widget_set_tooltip_text(row->widget,
+                                option_tooltip(row->option, method, row->usual, text));
 }
 
 void option_row_init(option_row *row, const crv_option *option, double usual,
@@ -119,13 +120,13 @@ void option_row_init(option_row *row, const crv_option *option, double usual,
 {
     *row = (option_row){.option = option,
                         .knob = knob_of(option, usual),
+                        .usual = usual,
                         .changed = changed,
                         .user = user};
-    char *title = title_of(option), *tooltip = tooltip_of(option);
+    char *title = title_of(option);
     GtkWidget *label = gtk_label_new(title), *control = make_control(row);
     row->widget = gtk_box_new(GTK_ORIENTATION_VERTICAL, 2);
     gtk_label_set_xalign(GTK_LABEL(label), 0.0f);
-    gtk_widget_set_tooltip_text(row->widget, tooltip);
     gtk_box_append(GTK_BOX(row->widget), label);
     gtk_box_append(GTK_BOX(row->widget), control);
     /* For screen readers. */
@@ -133,7 +134,6 @@ void option_row_init(option_row *row, const crv_option *option, double usual,
     gtk_accessible_update_property(GTK_ACCESSIBLE(named), GTK_ACCESSIBLE_PROPERTY_LABEL,
                                    title, -1);
     g_free(title);
-    g_free(tooltip);
 }
 
 void option_row_sync(option_row *row, const crv_options *options)
@@ -143,6 +143,7 @@ void option_row_sync(option_row *row, const crv_options *options)
         crv_option_applies(row->option, options->method, options->filter) != 0;
     char text[64];
     row->syncing = true;
+    sync_tooltip(row, options->method);
     if (gtk_widget_get_visible(row->widget) != applies)
         gtk_widget_set_visible(row->widget, applies);
     option_value_text(row->option, value, text);

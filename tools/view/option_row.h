@@ -15,7 +15,9 @@ typedef struct option_row {
     GtkWidget *entry;   /* numbers */
     GtkWidget *control; /* switch or choice */
     knob knob;
-    bool syncing; /* the control follows the options, not the user */
+    double usual;             /* the default that the view has for it; 0: none */
+    const crv_method *method; /* whose default the tooltip tells; NULL: none yet */
+    bool syncing;             /* the control follows the options, not the user */
     /* The user's change, as text that crv_options_set() takes. */
     void (*changed)(void *user, const crv_option *option, const char *value);
     void *user;

@@ -9,7 +9,7 @@
 
 enum { OPTIONS_MAX = 64, CONTENTS_MAX = 64 };
 
-/* In the order of half_look; frames have no materials to be lit. */
+/* In the order of half_look; some frames have no picture to be lit. */
 static const char *const looks[] = {"accessibility", "lit", "difference", NULL};
 static const char *const frame_looks[] = {"accessibility", "difference", NULL};
 
@@ -74,7 +74,8 @@ static void on_content(GObject *object, GParamSpec *spec, gpointer user)
 
 static const char *const *looks_of(const panel *p)
 {
-    return p->app->session.source.model ? looks : frame_looks;
+    const source *s = &p->app->session.source;
+    return s->model || s->has_beauty ? looks : frame_looks;
 }
 
 static half_look look_at(const panel *p, guint index)
@@ -211,9 +212,11 @@ panel *panel_make(app *a, int half)
     make_contents(p);
     make_choices(p);
     append_row(p->box, "Shows", p->content, "what this half's accessibility comes from");
-    append_row(p->box, "As", p->look,
-               "accessibility: white is open. lit: the scene with it. difference: left "
-               "minus right; orange where the left is brighter, blue where it is darker");
+    append_row(
+        p->box, "As", p->look,
+        "accessibility: white is open. lit: the scene, or the frame's picture, with "
+        "it. difference: left "
+        "minus right; orange where the left is brighter, blue where it is darker");
     p->numbers = gtk_label_new("");
     gtk_label_set_xalign(GTK_LABEL(p->numbers), 0.0f);
     gtk_label_set_wrap(GTK_LABEL(p->numbers), TRUE);

@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 #include "source.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "common/radius.h"
+
+/* Frames of a shot that are asked for its field of view. */
+enum { LENS_TRIED = 6 };
 
 const char *source_frame_name(const source *s, int32_t index, char *out, size_t size)
 {
@@ -15,17 +19,24 @@ const char *source_frame_name(const source *s, int32_t index, char *out, size_t 
     return (size_t)snprintf(out, size, "%s", input) < size ? out : NULL;
 }
 
-static int open_frames(source *s, const char *frames, report *r)
+/* What frames have no use for; NULL: nothing was given. */
+static const char *mesh_mistake(const view_settings *v)
 {
-    const view_settings *v = s->settings;
-    const int result =
-        pass_view_request(s->passes, &v->vfov_deg, &v->ortho, &s->request, r);
-    if (result != EXIT_DONE)
-        return result;
+    if (v->eye.given || v->target.given || v->up.given)
+        return "--eye, --target and --up: are for meshes; a frame has the view that it "
+               "was rendered with";
+    if (v->layers.given || v->normals_from.given || v->guard_px.given)
+        return "--layers, --normals-from and --guard-px: are for meshes; leave them out";
+    return NULL;
+}
+
+static int open_shot(source *s, const char *frames, report *r)
+{
+    const char *input = s->settings->model;
     s->frame_count = 1;
-    if (!frames && frames_places(v->model) == 0)
+    if (!frames && frames_places(input) == 0)
         return EXIT_DONE;
-    if (!frames || !frames_parse(frames, &s->list) || frames_places(v->model) != 1) {
+    if (!frames || !frames_parse(frames, &s->list) || frames_places(input) != 1) {
         report_error(r, "--frames: give the range and one place for the frame's number "
                         "in INPUT, as in shot.####.exr --frames 1-240");
         return EXIT_USAGE;
@@ -34,13 +45,134 @@ static int open_frames(source *s, const char *frames, report *r)
     return EXIT_DONE;
 }
 
+/* Reads the frame at this place of the list with its own camera. r NULL: without lines.
+ */
+static bool load_frame(source *s, int32_t index, io_frame *out, report *r)
+{
+    char path[4096];
+    camera_frame frame = {.path = source_frame_name(s, index, path, sizeof path)};
+    io_passes_request request = s->request;
+    if (!frame.path) {
+        if (r)
+            report_error(r, "%s: is too long a name", s->settings->model);
+        return false;
+    }
+    frame.has_number = frame_camera_number(frame.path, &frame.number);
+    if (s->list.ranges > 0) {
+        frame.has_number = true;
+        frame.number = frames_at(&s->list, index);
+    }
+    if (s->camera.file
+        && frame_camera_set(&s->camera, &s->cameras, &frame, &request, r) != EXIT_DONE)
+        return false;
+    return io_frame_load(frame.path, &request, out, r ? &r->logger : NULL) == 0;
+}
+
+/* --vfov fit: the first frame that decides it, for all. */
+static bool find_lens(source *s, report *r)
+{
+    bool found = false;
+    for (int32_t i = 0; i <= LENS_TRIED && !found; i++) {
+        /* In the end the first again, for its error line. */
+        const bool speak = i == LENS_TRIED;
+        const int32_t place =
+            speak ? 0 : (int32_t)((int64_t)i * s->frame_count / LENS_TRIED);
+        io_frame frame = {0};
+        if (!load_frame(s, place, &frame, speak ? r : NULL))
+            continue;
+        found = true;
+        /* Positions tell the camera of each frame. */
+        if (frame.fitted_vfov_rad > 0.0f) {
+            s->request.fit_vfov = false;
+            s->request.vfov_rad = frame.fitted_vfov_rad;
+        }
+        io_frame_free(&frame);
+    }
+    return found;
+}
+
+/* Whether the first frame has a picture that occlusion can be multiplied into. */
+static void find_beauty(source *s)
+{
+    char path[4096];
+    const char *name = source_frame_name(s, 0, path, sizeof path), *found[3];
+    io_image probed = {0};
+    if (!name || io_probe(name, &probed, NULL) != 0)
+        return; /* who reads the frame will say so */
+    s->has_beauty = io_find_pass(&probed, IO_PASS_BEAUTY, found) == 3;
+    for (int i = 0; i < 3 && s->has_beauty; i++)
+        snprintf(s->beauty[i], sizeof s->beauty[i], "%s", found[i]);
+    io_image_free(&probed);
+}
+
+/* Without a picture there is none to be lit. */
+static void read_beauty(const source *s, const char *path, const io_frame *frame,
+                        buffers *b)
+{
+    const crv_gbuffer_desc *d = &frame->desc;
+    const char *const names[] = {s->beauty[0], s->beauty[1], s->beauty[2]};
+    const size_t inner = (size_t)b->width * (size_t)b->height;
+    const size_t whole = (size_t)d->width * (size_t)d->height;
+    io_image image = {0};
+    if (!s->has_beauty || frame->image.width != d->width
+        || frame->image.height != d->height || io_read(path, names, 3, &image, NULL) != 0)
+        return;
+    float *plane = calloc(whole, sizeof *plane);
+    b->beauty = malloc(3 * inner * sizeof *b->beauty);
+    for (size_t c = 0; c < 3 && plane && b->beauty; c++) {
+        float *out = b->beauty + c;
+        io_copy_window(&image, image.channels[c].data, &frame->image, plane);
+        for (int32_t y = 0; y < b->height; y++)
+            for (int32_t x = 0; x < b->width; x++, out += 3)
+                *out = plane[buffers_index(b, x, y)];
+    }
+    if (!plane) {
+        free(b->beauty);
+        b->beauty = NULL;
+    }
+    free(plane);
+    io_image_free(&image);
+}
+
+static int open_frames(source *s, const char *frames, report *r)
+{
+    const char *mistake = pass_mistake(s->passes, s->camera.ortho.given);
+    if (!mistake)
+        mistake = frame_camera_mistake(&s->camera);
+    if (!mistake)
+        mistake = mesh_mistake(s->settings);
+    if (mistake) {
+        report_error(r, "%s", mistake);
+        return EXIT_USAGE;
+    }
+    s->request = pass_request(s->passes);
+    s->request.keep_overscan = true; /* as `crevice ao` does */
+    frame_camera_share(&s->camera, &s->request);
+    int result = open_shot(s, frames, r);
+    if (result == EXIT_DONE && s->camera.file)
+        result = camera_file_load(s->camera.file, s->camera.order.value, &s->cameras, r);
+    if (result == EXIT_DONE && s->request.fit_vfov && !find_lens(s, r))
+        result = EXIT_FAILED;
+    if (result == EXIT_DONE)
+        find_beauty(s);
+    return result;
+}
+
 int source_open(source *s, const viewer_settings *settings, report *r)
 {
-    *s = (source){.settings = &settings->view, .passes = &settings->passes};
+    *s = (source){.settings = &settings->view,
+                  .passes = &settings->passes,
+                  .camera = viewer_frame_camera(settings)};
     if (pass_is_frame(settings->view.model))
         return open_frames(s, settings->frames, r);
     if (settings->frames) {
         report_error(r, "--frames: is for .exr frames, not for a mesh; leave it out");
+        return EXIT_USAGE;
+    }
+    if (s->camera.order.given || s->camera.hfov_deg.given || s->camera.lens_mm.given
+        || s->camera.sensor_mm.given || isnan(s->camera.vfov_deg.value)) {
+        report_error(r, "--hfov, --lens, --sensor, --camera-order and --vfov fit: are "
+                        "for frames; give a mesh's --vfov in degrees");
         return EXIT_USAGE;
     }
     const int result = view_check(&settings->view, r);
@@ -50,6 +182,7 @@ int source_open(source *s, const viewer_settings *settings, report *r)
 void source_free(source *s)
 {
     scene_free(s->model);
+    camera_file_free(&s->cameras);
     s->model = NULL;
 }
 
@@ -117,16 +250,13 @@ buffers *source_read(source *s, int32_t index, estimator *e, report *r)
 {
     char path[4096];
     io_frame frame = {0};
-    const char *name = source_frame_name(s, index, path, sizeof path);
-    if (!name) {
-        report_error(r, "%s: is too long a name", s->settings->model);
-        return NULL;
-    }
-    if (io_frame_load(name, &s->request, &frame, &r->logger) != 0)
+    if (!load_frame(s, index, &frame, r))
         return NULL;
     if (s->settings->layer_kind.given)
         frame.desc.layer_kind = (crv_layers)s->settings->layer_kind.value;
     buffers *b = take_frame(&frame, e, r);
+    if (b)
+        read_beauty(s, source_frame_name(s, index, path, sizeof path), &frame, b);
     if (b && !(s->radius > 0.0f))
         radius_suggest(e, &frame, &s->radius, r);
     s->request.is_later = true;

@@ -12,8 +12,12 @@
 typedef struct source {
     const view_settings *settings;
     const pass_settings *passes; /* of frames */
-    scene *model;                /* NULL: frames */
+    frame_camera_settings camera;
+    camera_file cameras; /* of frames; empty: no file was given */
+    scene *model;        /* NULL: frames */
     io_passes_request request;
+    bool has_beauty; /* frames: the first has a picture, in these channels */
+    char beauty[3][IO_NAME_SIZE];
     frame_list list; /* of a shot; empty: one frame */
     int32_t frame_count;
     float radius; /* of the first frame or view: what suits it */
