@@ -10,6 +10,17 @@
 typedef struct panel panel;
 typedef struct script script;
 
+/* A half's pixels as GTK takes them, kept while they are the same. */
+typedef struct picture {
+    const uint32_t *pixels;   /* which; NULL: none yet */
+    cairo_surface_t *surface; /* owned; all of them, for Cairo; NULL: not made */
+    /* Owned: that of the pixels before. The window's last frame was recorded with it:
+     * without it now, Cairo would copy it. */
+    cairo_surface_t *surface_before;
+    GdkTexture *texture; /* owned; some columns, pixel by pixel; NULL: not made */
+    int32_t from, to;    /* the texture's columns */
+} picture;
+
 typedef struct app {
     const viewer_settings *settings;
     session session;
@@ -19,9 +30,12 @@ typedef struct app {
     int result;     /* the exit code */
 
     shown shown; /* what is on the screen; its buffers are NULL before the first */
-    cairo_surface_t *picture[HALVES];             /* over shown's pixels */
+    picture picture[HALVES];
     uint64_t asked, shown_number, painted_number; /* of wishes */
-    bool overlay;                                 /* line, names and scale */
+    /* report_seconds(): of the newest picture, and of the start: the program runs, the
+     * window is made, the first picture is painted. */
+    double taken_s, painted_s, begun_s, window_s, first_painted_s;
+    bool overlay;  /* line, names and scale */
     bool explains; /* horizons around the pixel under the pointer are drawn */
 
     double split;                /* the line between the halves, 0 to 1 */
@@ -64,6 +78,15 @@ void canvas_place(const app *a, double *scale_x, double *scale_y, double *x, dou
 /* The widget's size in device px. */
 void canvas_size(const app *a, int32_t *width, int32_t *height);
 void canvas_fit(app *a);
+/* What GTK was given of the picture before. */
+void canvas_forget(app *a);
+
+/* canvas_overlay.c: the line, names and scales over the picture, in px of the widget. */
+void overlay_snapshot(const app *a, GtkSnapshot *to, int width, int height);
+/* White on dark; right: x is where it ends. */
+void overlay_text(const app *a, GtkSnapshot *to, const char *text, double x, double y,
+                  bool right);
+enum { OVERLAY_MARGIN = 10 };
 
 /* probe.c: the pixel under the pointer in the status line. */
 void probe_tell(app *a);

@@ -1,15 +1,22 @@
 /* SPDX-License-Identifier: MIT */
-/* The picture: both halves, the line between them, names and the scale of differences. */
+/* The picture: both halves, with what canvas_overlay.c puts over them. */
 #include "app.h"
 
 #include <math.h>
-#include <string.h>
 
-#include "common/heatmap.h"
-#include "explain.h"
-#include "io.h"
+/* A GtkDrawingArea that draws by nodes of GTK's scene graph: a texture is uploaded once,
+ * and only what has changed is drawn anew. */
+typedef struct CreviceCanvas {
+    GtkDrawingArea parent;
+    app *app;
+} CreviceCanvas;
 
-enum { MARGIN = 10, PADDING = 6, SCALE_WIDTH = 160, SCALE_HEIGHT = 12 };
+typedef struct CreviceCanvasClass {
+    GtkDrawingAreaClass parent;
+} CreviceCanvasClass;
+
+static GType canvas_get_type(void);
+G_DEFINE_TYPE(CreviceCanvas, canvas, GTK_TYPE_DRAWING_AREA)
 
 void canvas_size(const app *a, int32_t *width, int32_t *height)
 {
@@ -55,196 +62,165 @@ bool canvas_pixel(const app *a, double x, double y, int32_t *column, int32_t *ro
     return true;
 }
 
-/* Device px from here on. */
-static void draw_half(const app *a, cairo_t *c, int half, double from, double to)
+void canvas_forget(app *a)
 {
-    double scale_x, scale_y, x, y;
-    int32_t width, height;
-    canvas_size(a, &width, &height);
-    canvas_place(a, &scale_x, &scale_y, &x, &y);
-    cairo_save(c);
-    cairo_rectangle(c, from, 0.0, to - from, height);
-    cairo_clip(c);
-    cairo_translate(c, x, y);
-    cairo_scale(c, scale_x, scale_y);
-    cairo_set_source_surface(c, a->picture[half], 0.0, 0.0);
-    /* Pixels stay pixels when they are enlarged, and are averaged when they shrink. */
-    cairo_pattern_set_filter(cairo_get_source(c),
-                             scale_x >= 1.0 ? CAIRO_FILTER_NEAREST : CAIRO_FILTER_GOOD);
+    for (int i = 0; i < HALVES; i++) {
+        g_clear_pointer(&a->picture[i].surface, cairo_surface_destroy);
+        g_clear_pointer(&a->picture[i].surface_before, cairo_surface_destroy);
+        g_clear_object(&a->picture[i].texture);
+        a->picture[i] = (picture){0};
+    }
+}
+
+/* The half's columns as they are, device px; `from` and `to` lie within the picture. */
+static GdkTexture *texture_of(app *a, int half, int32_t from, int32_t to)
+{
+    picture *p = &a->picture[half];
+    if (p->texture && p->from == from && p->to == to)
+        return p->texture;
+    const buffers *b = a->shown.buffers;
+    uint32_t *pixels = a->shown.half[half].pixels;
+    const size_t stride = (size_t)b->width * sizeof *pixels;
+    GBytes *bytes = g_bytes_new_with_free_func(
+        pixels + from, stride * (size_t)b->height - (size_t)from * sizeof *pixels,
+        pool_release, pool_hold(pixels));
+    g_clear_object(&p->texture);
+    p->texture =
+        gdk_memory_texture_new(to - from, b->height, GDK_MEMORY_DEFAULT, bytes, stride);
+    g_bytes_unref(bytes);
+    p->from = from;
+    p->to = to;
+    return p->texture;
+}
+
+static cairo_surface_t *surface_of(app *a, int half)
+{
+    static const cairo_user_data_key_t holder;
+    picture *p = &a->picture[half];
+    const buffers *b = a->shown.buffers;
+    uint32_t *pixels = a->shown.half[half].pixels;
+    if (p->surface)
+        return p->surface;
+    p->surface = cairo_image_surface_create_for_data(
+        (unsigned char *)pixels, CAIRO_FORMAT_RGB24, b->width, b->height, 4 * b->width);
+    cairo_surface_set_user_data(p->surface, &holder, pool_hold(pixels), pool_release);
+    return p->surface;
+}
+
+/* The part of the widget that shows a half, device px. */
+typedef struct stripe {
+    double from, to, height;
+    double scale_x, scale_y, left, top; /* how the picture lies */
+    float factor;                       /* device px a px of the widget */
+    bool by_cairo;                      /* as GTK's renderer draws */
+} stripe;
+
+static graphene_rect_t in_widget(const stripe *s, double x, double y, double width,
+                                 double height)
+{
+    return GRAPHENE_RECT_INIT((float)x / s->factor, (float)y / s->factor,
+                              (float)width / s->factor, (float)height / s->factor);
+}
+
+static bool is_whole(double x)
+{
+    return !(x < floor(x) || x > floor(x));
+}
+
+static bool is_pixel_by_pixel(const stripe *s)
+{
+    return !(s->scale_x < 1.0 || s->scale_x > 1.0 || s->scale_y < 1.0 || s->scale_y > 1.0)
+           && is_whole(s->left) && is_whole(s->top);
+}
+
+static void snapshot_texture(app *a, GtkSnapshot *to, int half, const stripe *s)
+{
+    const buffers *b = a->shown.buffers;
+    const int32_t first = (int32_t)fmin(fmax(s->from - s->left, 0.0), b->width);
+    const int32_t last = (int32_t)fmin(fmax(s->to - s->left, 0.0), b->width);
+    if (last <= first)
+        return;
+    const graphene_rect_t at =
+        in_widget(s, s->left + first, s->top, last - first, b->height);
+    gtk_snapshot_append_texture(to, texture_of(a, half, first, last), &at);
+}
+
+/* Pixels stay pixels when they are enlarged, and are averaged when they shrink. */
+static void snapshot_scaled(app *a, GtkSnapshot *to, int half, const stripe *s)
+{
+    const graphene_rect_t at = in_widget(s, s->from, 0.0, s->to - s->from, s->height);
+    cairo_t *c = gtk_snapshot_append_cairo(to, &at);
+    cairo_scale(c, 1.0 / (double)s->factor, 1.0 / (double)s->factor);
+    cairo_translate(c, s->left, s->top);
+    cairo_scale(c, s->scale_x, s->scale_y);
+    cairo_set_source_surface(c, surface_of(a, half), 0.0, 0.0);
+    cairo_pattern_set_filter(cairo_get_source(c), s->scale_x >= 1.0 ? CAIRO_FILTER_NEAREST
+                                                                    : CAIRO_FILTER_GOOD);
     cairo_paint(c);
-    cairo_restore(c);
+    cairo_destroy(c);
 }
 
-static void draw_text(const app *a, cairo_t *c, const char *text, double x, double y,
-                      bool right)
+static void snapshot_half(app *a, GtkSnapshot *to, int half, const stripe *s)
 {
-    PangoLayout *layout = gtk_widget_create_pango_layout(a->canvas, text);
-    int width, height;
-    pango_layout_get_pixel_size(layout, &width, &height);
-    if (right)
-        x -= width + 2 * PADDING;
-    cairo_set_source_rgba(c, 0.0, 0.0, 0.0, 0.6);
-    cairo_rectangle(c, x, y, width + 2 * PADDING, height + PADDING);
-    cairo_fill(c);
-    cairo_set_source_rgb(c, 1.0, 1.0, 1.0);
-    cairo_move_to(c, x + PADDING, y + PADDING / 2);
-    pango_cairo_show_layout(c, layout);
-    g_object_unref(layout);
+    picture *p = &a->picture[half];
+    if (!(s->to > s->from))
+        return;
+    if (p->pixels != a->shown.half[half].pixels) {
+        g_clear_pointer(&p->surface_before, cairo_surface_destroy);
+        p->surface_before = g_steal_pointer(&p->surface);
+        g_clear_object(&p->texture);
+        p->pixels = a->shown.half[half].pixels;
+    }
+    /* GTK's Cairo renderer converts textures slowly before it draws them. */
+    if (is_pixel_by_pixel(s) && !s->by_cairo)
+        snapshot_texture(a, to, half, s);
+    else
+        snapshot_scaled(a, to, half, s);
 }
 
-/* What a half's accessibility comes from; the caller frees it. */
-static char *content_of(const app *a, int half)
+static void canvas_snapshot(GtkWidget *widget, GtkSnapshot *to)
 {
-    const half_wish *h = &a->shown.wish.half[half];
-    const half_shown *s = &a->shown.half[half];
-    if (h->content == HALF_OPEN)
-        return g_strdup("no occlusion");
-    if (h->content == HALF_METHOD)
-        return g_strdup(h->options.method->name);
-    if (!s->has_truth)
-        return g_strdup("ray-traced truth");
-    if (s->truth.passes == 0)
-        return g_strdup_printf(
-            "ray-traced truth, first rays: %d %%",
-            (int)(100 * s->truth.known
-                  / MAX(1, (int64_t)a->shown.buffers->width * a->shown.buffers->height)));
-    return g_strdup_printf("ray-traced truth, %d rays",
-                           s->truth.passes * TRUTH_PASS_RAYS);
-}
-
-static char *name_of(const app *a, int half)
-{
-    const half_look look = a->shown.wish.half[half].look;
-    char *content = content_of(a, half), *name;
-    if (look == LOOK_DIFFERENCE) {
-        char *left = content_of(a, 0), *right = content_of(a, 1);
-        name = g_strdup_printf("%s minus %s", left, right);
-        g_free(left);
-        g_free(right);
+    static const GdkRGBA around = {0.25f, 0.25f, 0.25f, 1.0f};
+    app *a = ((CreviceCanvas *)(void *)widget)->app;
+    const int width = gtk_widget_get_width(widget);
+    const int height = gtk_widget_get_height(widget);
+    const int factor = gtk_widget_get_scale_factor(widget);
+    const graphene_rect_t all = GRAPHENE_RECT_INIT(0, 0, (float)width, (float)height);
+    gtk_snapshot_push_clip(to, &all);
+    if (!a->session.source.model || !a->shown.buffers)
+        gtk_snapshot_append_color(to, &around, &all);
+    if (a->shown.buffers) {
+        const double line = floor(a->split * width) * factor;
+        stripe s = {
+            .to = line, .height = (double)height * factor, .factor = (float)factor};
+        s.by_cairo =
+            GSK_IS_CAIRO_RENDERER(gtk_native_get_renderer(gtk_widget_get_native(widget)));
+        canvas_place(a, &s.scale_x, &s.scale_y, &s.left, &s.top);
+        a->painted_s = report_seconds();
+        if (!(a->first_painted_s > 0.0))
+            a->first_painted_s = a->painted_s;
+        snapshot_half(a, to, 0, &s);
+        s.from = line;
+        s.to = (double)width * factor;
+        snapshot_half(a, to, 1, &s);
+        if (a->overlay)
+            overlay_snapshot(a, to, width, height);
+        a->painted_number = a->shown_number;
     } else {
-        name = g_strdup_printf("%s%s", content, look == LOOK_LIT ? ", lit" : "");
+        overlay_text(a, to, a->told[0] ? a->told : "loading ...", OVERLAY_MARGIN,
+                     OVERLAY_MARGIN, false);
     }
-    g_free(content);
-    return name;
+    gtk_snapshot_pop(to);
 }
 
-/* The colours of the heat map from -scale to scale. */
-static void draw_scale(const app *a, cairo_t *c, double x, double y)
+static void canvas_class_init(CreviceCanvasClass *c)
 {
-    char *ends[] = {g_strdup_printf("-%g", a->shown.wish.heat_scale), g_strdup("0"),
-                    g_strdup_printf("+%g", a->shown.wish.heat_scale)};
-    for (int i = 0; i < SCALE_WIDTH; i++) {
-        float linear[3];
-        heatmap_colour(2.0 * (i + 0.5) / SCALE_WIDTH - 1.0, linear);
-        cairo_set_source_rgb(c, io_quantise(linear[0], true, 255) / 255.0,
-                             io_quantise(linear[1], true, 255) / 255.0,
-                             io_quantise(linear[2], true, 255) / 255.0);
-        cairo_rectangle(c, x + i, y, 1.0, SCALE_HEIGHT);
-        cairo_fill(c);
-    }
-    draw_text(a, c, ends[0], x, y + SCALE_HEIGHT, false);
-    draw_text(a, c, ends[1], x + SCALE_WIDTH / 2 - PADDING - 4, y + SCALE_HEIGHT, false);
-    draw_text(a, c, ends[2], x + SCALE_WIDTH, y + SCALE_HEIGHT, true);
-    for (int i = 0; i < 3; i++)
-        g_free(ends[i]);
+    GTK_WIDGET_CLASS(c)->snapshot = canvas_snapshot;
 }
 
-/* A texel's centre on the widget. */
-static void texel_centre(const app *a, int32_t x, int32_t y, double *out_x, double *out_y)
+static void canvas_init(CreviceCanvas *c)
 {
-    const int factor = gtk_widget_get_scale_factor(a->canvas);
-    double scale_x, scale_y, left, top;
-    canvas_place(a, &scale_x, &scale_y, &left, &top);
-    *out_x = (left + (x + 0.5) * scale_x) / factor;
-    *out_y = (top + (y + 0.5) * scale_y) / factor;
-}
-
-/* The radius around the pixel, and the horizon of each direction: the redder, the higher.
- */
-static void draw_explanation(const app *a, cairo_t *c)
-{
-    int32_t x, y;
-    double px, py, edge, unused;
-    explanation e;
-    if (a->pointer_x < 0.0 || !canvas_pixel(a, a->pointer_x, a->pointer_y, &x, &y))
-        return;
-    const int half = a->pointer_x >= a->split * gtk_widget_get_width(a->canvas);
-    if (!explain_pixel(a->shown.buffers, x, y,
-                       (double)a->shown.wish.half[half].options.radius, &e))
-        return;
-    texel_centre(a, x, y, &px, &py);
-    texel_centre(a, x + (int32_t)lround(fmin(e.radius_px, 1e6)), y, &edge, &unused);
-    cairo_set_line_width(c, 1.5);
-    cairo_set_source_rgba(c, 0.1, 0.4, 1.0, 0.9);
-    cairo_arc(c, px, py, edge - px, 0.0, 2.0 * G_PI);
-    cairo_stroke(c);
-    for (int i = 0; i < EXPLAIN_DIRECTIONS; i++) {
-        const explain_horizon *h = &e.horizon[i];
-        double hx, hy;
-        if (!h->found)
-            continue;
-        texel_centre(a, h->x, h->y, &hx, &hy);
-        cairo_set_source_rgba(c, 1.0, 0.85 * (1.0 - h->sine), 0.0, 0.9);
-        cairo_move_to(c, px, py);
-        cairo_line_to(c, hx, hy);
-        cairo_stroke(c);
-        cairo_arc(c, hx, hy, 3.0, 0.0, 2.0 * G_PI);
-        cairo_fill(c);
-    }
-}
-
-/* Widget px from here on. */
-static void draw_overlay(const app *a, cairo_t *c, int width, int height)
-{
-    const double x = floor(a->split * width) + 0.5;
-    if (a->split > 0.0 && a->split < 1.0) {
-        cairo_set_line_width(c, 3.0);
-        cairo_set_source_rgba(c, 0.0, 0.0, 0.0, 0.5);
-        cairo_move_to(c, x, 0.0);
-        cairo_line_to(c, x, height);
-        cairo_stroke(c);
-        cairo_set_line_width(c, 1.0);
-        cairo_set_source_rgb(c, 1.0, 1.0, 1.0);
-        cairo_move_to(c, x, 0.0);
-        cairo_line_to(c, x, height);
-        cairo_stroke(c);
-        cairo_arc(c, x, 0.5 * height, 5.0, 0.0, 2.0 * G_PI);
-        cairo_fill(c);
-    }
-    if (a->explains)
-        draw_explanation(a, c);
-    char *names[] = {name_of(a, 0), name_of(a, 1)};
-    if (a->split > 0.0)
-        draw_text(a, c, names[0], MARGIN, MARGIN, false);
-    if (a->split < 1.0)
-        draw_text(a, c, names[1], width - MARGIN, MARGIN, true);
-    for (int i = 0; i < HALVES; i++)
-        g_free(names[i]);
-    if (a->shown.wish.half[0].look == LOOK_DIFFERENCE)
-        draw_scale(a, c, MARGIN, height - MARGIN - 40);
-    if (a->shown.wish.half[1].look == LOOK_DIFFERENCE)
-        draw_scale(a, c, width - MARGIN - SCALE_WIDTH, height - MARGIN - 40);
-}
-
-static void draw(GtkDrawingArea *area, cairo_t *c, int width, int height, gpointer user)
-{
-    app *a = user;
-    const int factor = gtk_widget_get_scale_factor(GTK_WIDGET(area));
-    cairo_set_source_rgb(c, 0.25, 0.25, 0.25);
-    cairo_paint(c);
-    if (!a->picture[0]) {
-        draw_text(a, c, a->told[0] ? a->told : "loading ...", MARGIN, MARGIN, false);
-        return;
-    }
-    const double line = floor(a->split * width) * factor;
-    cairo_save(c);
-    cairo_scale(c, 1.0 / factor, 1.0 / factor);
-    draw_half(a, c, 0, 0.0, line);
-    draw_half(a, c, 1, line, (double)width * factor);
-    cairo_restore(c);
-    if (a->overlay)
-        draw_overlay(a, c, width, height);
-    a->painted_number = a->shown_number;
+    c->app = NULL;
 }
 
 static void on_resize(GtkDrawingArea *area, int width, int height, gpointer user)
@@ -266,11 +242,11 @@ static void on_resize(GtkDrawingArea *area, int width, int height, gpointer user
 
 GtkWidget *canvas_make(app *a)
 {
-    a->canvas = gtk_drawing_area_new();
+    a->canvas = g_object_new(canvas_get_type(), NULL);
+    ((CreviceCanvas *)(void *)a->canvas)->app = a;
     gtk_widget_set_hexpand(a->canvas, TRUE);
     gtk_widget_set_vexpand(a->canvas, TRUE);
     gtk_widget_set_focusable(a->canvas, TRUE);
-    gtk_drawing_area_set_draw_func(GTK_DRAWING_AREA(a->canvas), draw, a, NULL);
     g_signal_connect(a->canvas, "resize", G_CALLBACK(on_resize), a);
     gtk_accessible_update_property(GTK_ACCESSIBLE(a->canvas),
                                    GTK_ACCESSIBLE_PROPERTY_LABEL, "the picture", -1);

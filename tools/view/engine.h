@@ -7,6 +7,21 @@
 #include "source.h"
 #include "wish.h"
 
+/* The mean that was read last. */
+typedef struct seen_truth {
+    float *plane; /* held; NULL: none */
+    int64_t version;
+} seen_truth;
+
+/* What the pixels of a half were painted from: if it is the same, so are they. */
+typedef struct painted {
+    uint32_t *pixels; /* held; NULL: none */
+    half_look look;
+    float *plane[HALVES]; /* held; the second only of differences */
+    size_t known;         /* the pixels from there on are not known yet */
+    double heat_scale;
+} painted;
+
 typedef struct engine {
     source *source;
     truth *truth; /* NULL: none is made */
@@ -20,6 +35,10 @@ typedef struct engine {
     int32_t coarseness;
     double cast_ms, full_cast_ms; /* the last; of a full picture, 0: not known */
     float *dark, *light;          /* of lit pictures of `buffers`; NULL: not made */
+    pool *planes;
+    float *open; /* held; 1 for each pixel of `buffers`; NULL: not made */
+    seen_truth seen[HALVES];
+    painted painted[HALVES];
     char problem[PROBLEM_SIZE];
 } engine;
 
@@ -35,5 +54,8 @@ bool engine_place(engine *e, const wish *w);
 /* Makes the picture; false if source->stop was set meanwhile. Whatever fails is said in
  * out->problem. The caller frees *out. */
 bool engine_render(engine *e, const wish *w, shown *out);
+
+/* The numbers of a picture whose numbers follow. */
+void engine_measure(shown *s);
 
 #endif

@@ -1,15 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "estimation.h"
 
-#include <stdlib.h>
-
 #include "common/estimate.h"
 #include "common/report.h"
 
 void estimation_free(estimation *e)
 {
     crv_plan_destroy(e->plan);
-    free(e->result);
+    pool_release(e->result);
     *e = (estimation){0};
 }
 
@@ -31,28 +29,27 @@ static crv_status make_plan(estimation *e, crv_context *context,
     return estimate_take(context, desc, options, &e->plan, &e->options);
 }
 
-static crv_status make_room(estimation *e)
+/* Whoever shows the result before keeps it. */
+static crv_status make_room(estimation *e, pool *planes)
 {
     const crv_gbuffer_desc *d = &e->desc;
-    const int32_t width = d->width - d->guard_left - d->guard_right;
-    const int32_t height = d->height - d->guard_top - d->guard_bottom;
-    if (e->result && e->width == width && e->height == height)
-        return CRV_OK;
-    free(e->result);
-    e->fresh = false;
-    e->result = malloc((size_t)width * (size_t)height * sizeof *e->result);
-    e->width = width;
-    e->height = height;
+    e->width = d->width - d->guard_left - d->guard_right;
+    e->height = d->height - d->guard_top - d->guard_bottom;
+    pool_release(e->result);
+    e->result =
+        pool_take(planes, (size_t)e->width * (size_t)e->height * sizeof *e->result);
     return e->result ? CRV_OK : CRV_ERROR_OUT_OF_MEMORY;
 }
 
-crv_status estimation_run(estimation *e, crv_context *context, crv_gbuffer *gbuffer,
-                          const crv_gbuffer_desc *desc, const crv_options *options)
+crv_status estimation_run(estimation *e, pool *planes, crv_context *context,
+                          crv_gbuffer *gbuffer, const crv_gbuffer_desc *desc,
+                          const crv_options *options)
 {
     crv_status status = make_plan(e, context, desc, options);
-    if (status == CRV_OK)
-        status = make_room(e);
     if (status != CRV_OK || e->fresh)
+        return status;
+    status = make_room(e, planes);
+    if (status != CRV_OK)
         return status;
     const crv_image result = crv_image_packed(e->result, e->width, e->height, 1);
     const double start = report_seconds();

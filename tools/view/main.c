@@ -7,13 +7,6 @@
 #include "panel.h"
 #include "script.h"
 
-static void forget_pictures(app *a)
-{
-    for (int i = 0; i < HALVES; i++)
-        g_clear_pointer(&a->picture[i], cairo_surface_destroy);
-    shown_free(&a->shown);
-}
-
 /* A failed wish leaves the picture before on the screen, with a line that says why. */
 static void take_picture(app *a)
 {
@@ -21,6 +14,9 @@ static void take_picture(app *a)
     uint64_t number;
     if (!worker_take(a->session.worker, &s, &number))
         return;
+    const bool same = number == a->shown_number && s.buffers == a->shown.buffers
+                      && s.half[0].pixels == a->shown.half[0].pixels
+                      && s.half[1].pixels == a->shown.half[1].pixels;
     a->shown_number = number;
     if (!s.buffers) {
         app_tell(a, "%s", s.problem);
@@ -28,16 +24,17 @@ static void take_picture(app *a)
         gtk_widget_queue_draw(a->canvas);
         return;
     }
-    forget_pictures(a);
+    shown_free(&a->shown);
     a->shown = s;
-    for (int i = 0; i < HALVES; i++)
-        a->picture[i] = cairo_image_surface_create_for_data(
-            (unsigned char *)s.half[i].pixels, CAIRO_FORMAT_RGB24, s.buffers->width,
-            s.buffers->height, 4 * s.buffers->width);
+    if (!same) {
+        a->taken_s = report_seconds();
+        gtk_widget_queue_draw(a->canvas);
+    }
+    if (s.numbers_follow)
+        return;
     for (int i = 0; i < HALVES; i++)
         panel_show_numbers(a->panel[i]);
     probe_tell(a);
-    gtk_widget_queue_draw(a->canvas);
 }
 
 static gboolean on_ready(gpointer user)
@@ -71,6 +68,7 @@ static void on_destroy(GtkWidget *window, gpointer user)
 static int run_window(app *a)
 {
     window_make(a);
+    a->window_s = report_seconds();
     g_signal_connect(a->window, "destroy", G_CALLBACK(on_destroy), a);
     if (!a->session.source.model)
         app_ask(a);
@@ -81,9 +79,13 @@ static int run_window(app *a)
     return a->result;
 }
 
-static int run(const viewer_settings *settings, report *r)
+static int run(const viewer_settings *settings, double begun_s, report *r)
 {
-    app a = {.settings = settings, .split = 0.5, .overlay = true, .pointer_x = -1.0};
+    app a = {.settings = settings,
+             .begun_s = begun_s,
+             .split = 0.5,
+             .overlay = true,
+             .pointer_x = -1.0};
     int result = EXIT_DONE;
     if (settings->script)
         result = script_load(settings->script, &a.script, r);
@@ -94,7 +96,8 @@ static int run(const viewer_settings *settings, report *r)
     session_close(&a.session);
     while (g_main_context_iteration(NULL, FALSE))
         continue;
-    forget_pictures(&a);
+    canvas_forget(&a);
+    shown_free(&a.shown);
     for (int i = 0; i < HALVES; i++)
         panel_free(a.panel[i]);
     script_free(a.script);
@@ -112,6 +115,7 @@ static bool wants_help(int argc, char **argv)
 int main(int argc, char **argv)
 {
     static viewer_settings settings;
+    const double begun_s = report_seconds();
     report r;
     report_init(&r);
     if (wants_help(argc, argv)) {
@@ -129,7 +133,7 @@ int main(int argc, char **argv)
                          "use `crevice render`");
         return EXIT_FAILED;
     }
-    result = run(&settings, &r);
+    result = run(&settings, begun_s, &r);
     if (result != EXIT_DONE && r.errors == 0)
         report_error(&r, "view: failed");
     return result;

@@ -9,6 +9,8 @@
 
 /* Steps of the heat map's colours on each side; more than a byte can tell apart. */
 enum { HEAT_STEPS = 1024 };
+/* Of the sRGB curve: its steepest part spans a fifth of a byte's step in one. */
+enum { CURVE_STEPS = 16384 };
 
 static uint32_t pixel(uint8_t r, uint8_t g, uint8_t b)
 {
@@ -21,24 +23,29 @@ void paint_grey(const float *accessibility, size_t count, uint32_t *out)
 #pragma omp parallel for
 #endif
     for (size_t i = 0; i < count; i++) {
-        const uint8_t grey = (uint8_t)io_quantise(accessibility[i], false, 255);
-        out[i] = pixel(grey, grey, grey);
+        /* io_quantise(), which is too far away to be made a loop of vectors. */
+        const float value = accessibility[i] > 0.0f ? accessibility[i] : 0.0f;
+        const uint32_t grey = (uint32_t)((value < 1.0f ? value : 1.0f) * 255.0f + 0.5f);
+        out[i] = 0xff000000u | grey * 0x010101u;
     }
 }
 
 void paint_lit(const float *dark, const float *light, const float *accessibility,
                size_t count, uint32_t *out)
 {
+    uint8_t curve[CURVE_STEPS + 1];
+    for (int i = 0; i <= CURVE_STEPS; i++)
+        curve[i] = (uint8_t)io_quantise((float)i / CURVE_STEPS, true, 255);
 #ifdef _OPENMP
 #pragma omp parallel for
 #endif
     for (size_t i = 0; i < count; i++) {
         uint8_t byte[3];
         for (size_t c = 0; c < 3; c++) {
-            const double low = (double)dark[3 * i + c];
-            const double value =
-                low + (double)accessibility[i] * ((double)light[3 * i + c] - low);
-            byte[c] = (uint8_t)io_quantise((float)value, true, 255);
+            const float low = dark ? dark[3 * i + c] : 0.0f;
+            const float value = low + accessibility[i] * (light[3 * i + c] - low);
+            const float inside = value > 0.0f ? fminf(value, 1.0f) : 0.0f; /* NaN: 0 */
+            byte[c] = curve[(int)(inside * CURVE_STEPS + 0.5f)];
         }
         out[i] = pixel(byte[0], byte[1], byte[2]);
     }
@@ -72,11 +79,24 @@ void paint_difference(const float *a, const float *b, const uint8_t *surface,
     }
 }
 
+/* A row of squares, 8 pixels wide. */
+static void paint_squares(int32_t from, int32_t width, int32_t y, uint32_t *row)
+{
+    for (int32_t x = from; x < width; x++) {
+        const uint8_t grey = (x / 8 + y / 8) % 2 == 0 ? 96 : 112;
+        row[x] = pixel(grey, grey, grey);
+    }
+}
+
 void paint_unknown(size_t first, size_t count, int32_t width, uint32_t *out)
 {
-    for (size_t i = first; i < count; i++) {
-        const size_t x = i % (size_t)width, y = i / (size_t)width;
-        const uint8_t grey = (x / 8 + y / 8) % 2 == 0 ? 96 : 112;
-        out[i] = pixel(grey, grey, grey);
-    }
+    const int32_t rows = (int32_t)(count / (size_t)width);
+    const int32_t first_row = (int32_t)(first / (size_t)width);
+    const int32_t first_column = (int32_t)(first % (size_t)width);
+#ifdef _OPENMP
+#pragma omp parallel for
+#endif
+    for (int32_t y = first_row; y < rows; y++)
+        paint_squares(y == first_row ? first_column : 0, width, y,
+                      out + (size_t)y * (size_t)width);
 }

@@ -10,7 +10,7 @@
 void paint_grey(const float *accessibility, size_t count, uint32_t *out);
 
 /* dark + accessibility (light - dark), linear light, as the sRGB that a PNG has: dark and
- * light are three floats a pixel. */
+ * light are three floats a pixel; dark NULL: black. */
 void paint_lit(const float *dark, const float *light, const float *accessibility,
                size_t count, uint32_t *out);
 

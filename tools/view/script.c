@@ -19,7 +19,7 @@ int script_load(const char *path, script **out, report *r)
     script *s = g_new0(script, 1);
     s->path = path;
     s->lines = g_strsplit(text, "\n", -1);
-    s->times = g_array_new(FALSE, FALSE, sizeof(double));
+    s->times = g_array_new(FALSE, FALSE, sizeof(script_times));
     g_free(text);
     *out = s;
     return EXIT_DONE;

@@ -17,13 +17,30 @@ struct script {
     gint64 since, tried;     /* when the wait began, and the last attempt, us */
     char path_out[4096];     /* of a screenshot that waits to be taken */
     /* measure: */
-    gulong painted;
+    gulong painted, framed;
+    bool waits_for_frame;
     GdkFrameClock *clock; /* owned while it measures */
     int half, count, taken;
-    double from, to, started_ms;
+    double from, to, started_s;
     char key[64];
-    GArray *times; /* double, ms; owned */
+    GArray *times; /* of script_times; owned */
 };
+
+/* What a slider's change was spent on, ms. */
+typedef enum script_stage {
+    STAGE_ASK,     /* until the worker begins */
+    STAGE_METHOD,  /* the method's run, its filter included */
+    STAGE_COLOURS, /* the rest of the picture */
+    STAGE_TAKE,    /* until the window has it */
+    STAGE_FRAME,   /* until the window's next frame begins */
+    STAGE_DRAW,    /* until that is drawn */
+    STAGE_ALL,
+    STAGE_COUNT
+} script_stage;
+
+typedef struct script_times {
+    double ms[STAGE_COUNT];
+} script_times;
 
 /* Reads it. Returns an exit code. */
 int script_load(const char *path, script **out, report *r);
@@ -47,5 +64,7 @@ bool script_number(const char *word, double *out);
 
 /* script_measure.c: measure HALF KEY FROM TO COUNT. */
 const char *script_measure(script *s, char **word);
+/* start: how long it took until there was a picture. */
+const char *script_start_times(script *s, char **word);
 
 #endif

@@ -426,6 +426,7 @@ const script_action script_actions[] = {
     {"probe", 2, do_probe},
     {"status", 0, do_status},
     {"measure", 5, script_measure},
+    {"start", 0, script_start_times},
     {"resize-storm", 1, do_resize_storm},
     {"quit", 0, do_quit},
     {NULL, 0, NULL},

@@ -69,12 +69,15 @@ int session_open(session *s, const viewer_settings *settings, void (*ready)(void
     const view_settings *v = &settings->view;
     *s = (session){.r = r, .ready = ready, .user = user};
     int result = source_open(&s->source, settings, r);
+    s->input_s = report_seconds();
     if (result == EXIT_DONE)
         result = engine_open(&s->engine, &s->source, NULL, &v->common, r);
     if (result == EXIT_DONE)
         result = begin_wish(s, settings);
     if (result != EXIT_DONE)
         return result;
+    if (!s->source.model)
+        s->input_s = report_seconds();
     s->truth = truth_start(s->source.model, v->common.threads.value, truth_changed, s);
     s->engine.truth = s->truth;
     s->worker = s->truth ? worker_start(&s->engine, picture_ready, s) : NULL;

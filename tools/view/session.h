@@ -16,6 +16,7 @@ typedef struct session {
     worker *worker;
     wish wish;
     float usual_radius; /* what suits the first view */
+    double input_s;     /* when the mesh or the first frame was read, report_seconds() */
     report *r;
     void (*ready)(void *user); /* called by any thread: a new picture is there */
     void *user;

@@ -34,7 +34,8 @@ struct truth {
     double rest_until; /* as hold, until then; report_seconds() */
     double told;       /* when changed() was called last */
     truth_slot slot[TRUTH_SLOTS];
-    bool shared; /* slot 1 wants what slot 0 does */
+    int64_t versions; /* of means so far */
+    bool shared;      /* slot 1 wants what slot 0 does */
 };
 
 static void clear(truth_slot *s)
@@ -157,6 +158,7 @@ static bool work_on(truth *t, int index, job *j)
     const bool whole = reference_done(work) == reference_total(work);
     if (whole) {
         add_pass(s, work);
+        s->state.version = ++t->versions;
         reference_restart(work, (uint32_t)s->state.passes + 1);
     }
     const bool is_news = whole || s->state.passes == 0;
@@ -164,8 +166,10 @@ static bool work_on(truth *t, int index, job *j)
         whole && (s->state.passes <= FIRST_PASSES || s->state.passes == TRUTH_PASSES);
     if (!is_news || (!is_urgent && report_seconds() < t->told + TOLD_S))
         return false;
-    if (!whole)
+    if (!whole) {
         show_part(s, work);
+        s->state.version = ++t->versions;
+    }
     t->told = report_seconds();
     return true;
 }
@@ -257,6 +261,7 @@ void truth_want(truth *t, int slot, buffers *b, const reference_options *o)
             clear(s);
     } else if (s->b != b || !target_equal(&s->options, o)) {
         begin(s, b, o);
+        s->state.version = ++t->versions;
     }
     monitor_wake(t->monitor);
     monitor_leave(t->monitor);

@@ -22,6 +22,7 @@ typedef struct truth_state {
     /* Of passes: the root mean square over the surfaces of the estimated standard errors
      * of the pixels. */
     double error;
+    int64_t version; /* another one: another mean */
 } truth_state;
 
 /* changed() is called by the thread after a pass and now and then in the first. model

@@ -4,6 +4,7 @@
 #define VIEW_WISH_H
 
 #include "buffers.h"
+#include "pool.h"
 #include "truth.h"
 
 enum { HALVES = 2, PROBLEM_SIZE = 512 };
@@ -38,15 +39,15 @@ typedef struct wish {
 } wish;
 
 typedef struct half_shown {
-    uint32_t *pixels;     /* 0xFFRRGGBB */
-    float *accessibility; /* of each pixel */
+    uint32_t *pixels;     /* held; 0xFFRRGGBB */
+    float *accessibility; /* held; of each pixel */
     double time_ms;       /* of the method's run; 0: none ran */
     bool measured;        /* against a truth of at least two passes: */
     double rmse;          /* without what the truth's own noise adds */
     double bias;
     bool has_truth;
     truth_state truth;
-    float *truth_plane; /* NULL unless has_truth */
+    float *truth_plane; /* held; NULL if nothing is known of it */
 } half_shown;
 
 /* One picture. Free it with shown_free(). */
@@ -56,10 +57,15 @@ typedef struct shown {
     int32_t coarseness; /* each pixel stands for so many of each side */
     half_shown half[HALVES];
     double cast_ms;             /* of the last ray casting or reading */
+    bool numbers_follow;        /* the same picture comes once more, measured */
+    double began_s, made_s;     /* when it was begun and done, report_seconds() */
     char problem[PROBLEM_SIZE]; /* why it is not what was wished for; "" if it is */
 } shown;
 
 /* NULL does nothing. */
 void shown_free(shown *s);
+
+/* The same picture, held once more. */
+shown shown_hold(const shown *s);
 
 #endif

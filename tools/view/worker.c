@@ -53,8 +53,17 @@ static void serve(worker *k, const wish *w, uint64_t number, bool again)
         truth_rest(t, DRAWN_S);
     if (t)
         truth_hold(t, false);
-    if (done)
-        publish(k, &made, number);
+    if (!done)
+        return;
+    shown measured = {0};
+    const bool numbers_follow = made.numbers_follow;
+    if (numbers_follow)
+        measured = shown_hold(&made);
+    publish(k, &made, number);
+    if (!numbers_follow)
+        return;
+    engine_measure(&measured);
+    publish(k, &measured, number);
 }
 
 static void run(void *data)
