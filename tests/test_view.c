@@ -4,6 +4,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -148,6 +149,22 @@ static void test_option_text(void **state)
     assert_true(estimate_same_options(&o, &again));
 }
 
+/* Meaning, range and default; the default is the method's, or that of the view. */
+static void test_tooltips(void **state)
+{
+    (void)state;
+    char text[OPTION_TOOLTIP_SIZE];
+    const crv_option *falloff = crv_option_find("falloff");
+    option_tooltip(falloff, crv_method_find("hbao"), 0.0, text);
+    assert_non_null(strstr(text, falloff->help));
+    assert_non_null(strstr(text, "none|linear|"));
+    assert_non_null(strstr(text, "default linear")); /* as `crevice methods hbao` says */
+    option_tooltip(crv_option_find("steps"), crv_method_find("hbao"), 0.0, text);
+    assert_non_null(strstr(text, "default 8"));
+    option_tooltip(crv_option_find("radius"), crv_method_find("hbao"), 0.25, text);
+    assert_non_null(strstr(text, "default 0.25, that of the first view"));
+}
+
 /* An engine on a small built-in scene. */
 typedef struct bench {
     report r;
@@ -225,6 +242,33 @@ static void test_engine_keeps_nothing_stale(void **state)
     close_bench(&b);
 }
 
+/* What did not change is not made anew: the same memory is shown. */
+static void test_engine_makes_what_changed(void **state)
+{
+    (void)state;
+    bench b;
+    shown first, second, third;
+    open_bench(&b, "builtin:corner");
+    render(&b, &first);
+    b.wish.half[0].options.radius = 0.4f;
+    render(&b, &second);
+    assert_ptr_not_equal(first.half[0].accessibility, second.half[0].accessibility);
+    assert_ptr_not_equal(first.half[0].pixels, second.half[0].pixels);
+    assert_ptr_equal(first.half[1].accessibility, second.half[1].accessibility);
+    assert_ptr_equal(first.half[1].pixels, second.half[1].pixels);
+    b.wish.half[1].look = LOOK_DIFFERENCE;
+    render(&b, &third);
+    assert_ptr_equal(second.half[0].pixels, third.half[0].pixels);
+    assert_ptr_not_equal(second.half[1].pixels, third.half[1].pixels);
+    /* What is shown stays when the engine is gone. */
+    const uint32_t before = first.half[0].pixels[96 * 27 + 48];
+    close_bench(&b);
+    assert_int_equal(first.half[0].pixels[96 * 27 + 48], before);
+    shown_free(&first);
+    shown_free(&second);
+    shown_free(&third);
+}
+
 /* Grey is the PNG's grey, no difference is the heat map's white, lit is dark where
  * closed. */
 static void test_looks(void **state)
@@ -256,6 +300,65 @@ static void test_looks(void **state)
     assert_true(darker > 0);
     shown_free(&s);
     close_bench(&b);
+}
+
+/* A frame's own picture, darkened: linear light times accessibility, as sRGB. A valley,
+ * made by hand: depth 4 in the middle, 1 on both sides. */
+static void test_lit_frame(void **state)
+{
+    (void)state;
+    enum { WIDTH = 64, HEIGHT = 32 };
+    static const char *const names[] = {"Z", "View.Combined.R", "View.Combined.G",
+                                        "View.Combined.B"};
+    static const float colour[] = {0.9f, 0.5f, 0.1f};
+    const char *path = "test_view_lit.exr";
+    bench b;
+    shown s;
+    io_image image = {0};
+    assert_int_equal(io_image_init(&image, WIDTH, HEIGHT, names, 4, NULL), 0);
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        const float x = (float)(i % WIDTH) / WIDTH;
+        image.channels[0].data[i] = 4.0f - 6.0f * fabsf(x - 0.5f);
+        for (int c = 0; c < 3; c++)
+            image.channels[1 + c].data[i] = colour[c];
+    }
+    assert_int_equal(io_write(path, &image, NULL, NULL), 0);
+    io_image_free(&image);
+    b = (bench){.r.logger.fn = quiet, .r.quiet = true};
+    b.settings.view = (view_settings){.common.options = options_of(NULL), .model = path};
+    b.settings.view.vfov_deg = (arg_number){.given = true, .value = 60.0};
+    assert_int_equal(source_open(&b.source, &b.settings, &b.r), EXIT_DONE);
+    assert_true(b.source.has_beauty);
+    assert_int_equal(
+        engine_open(&b.engine, &b.source, NULL, &b.settings.view.common, &b.r),
+        EXIT_DONE);
+    b.wish = (wish){.width = WIDTH, .height = HEIGHT, .heat_scale = 0.25};
+    for (int i = 0; i < HALVES; i++) {
+        b.wish.half[i].options = options_of(NULL);
+        b.wish.half[i].look = LOOK_LIT;
+    }
+    b.wish.half[1].content = HALF_OPEN;
+    render(&b, &s);
+    double darkest = 1.0;
+    for (size_t i = 0; i < (size_t)WIDTH * HEIGHT; i++)
+        for (int c = 0; c < 3; c++) {
+            const float ao = s.half[0].accessibility[i];
+            const int shown_byte = s.half[0].pixels[i] >> (16 - 8 * c) & 255;
+            const int open_byte = s.half[1].pixels[i] >> (16 - 8 * c) & 255;
+            /* The curve is tabulated: one step of 255. */
+            assert_true(abs(shown_byte - (int)io_quantise(colour[c] * ao, true, 255))
+                        <= 1);
+            assert_true(abs(open_byte - (int)io_quantise(colour[c], true, 255)) <= 1);
+            darkest = fmin(darkest, (double)ao);
+        }
+    assert_true(darkest < 0.9);
+    char text[COMMAND_SIZE];
+    command_text(&b.source, &b.wish, 0, text);
+    assert_non_null(strstr(text, "crevice ao test_view_lit.exr --vfov 60"));
+    assert_non_null(strstr(text, " --apply View.Combined -o lit.exr"));
+    shown_free(&s);
+    close_bench(&b);
+    remove(path);
 }
 
 /* While the camera moves the picture is coarse, with the same framing. */
@@ -352,8 +455,11 @@ int main(void)
         cmocka_unit_test(test_knobs),
         cmocka_unit_test(test_targets),
         cmocka_unit_test(test_option_text),
+        cmocka_unit_test(test_tooltips),
         cmocka_unit_test(test_engine_keeps_nothing_stale),
+        cmocka_unit_test(test_engine_makes_what_changed),
         cmocka_unit_test(test_looks),
+        cmocka_unit_test(test_lit_frame),
         cmocka_unit_test(test_moving_is_coarse),
         cmocka_unit_test(test_explanation),
         cmocka_unit_test(test_commands),

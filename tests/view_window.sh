@@ -138,6 +138,27 @@ grep -q -- '--depth Z --normal none' stdout.txt || fail "passes are not in the c
 PATH="$(dirname "$tool"):$PATH" sh -ec "$(grep '^crevice ao' stdout.txt)" 2>/dev/null
 same frame.png ao.png R 0 Y
 
+# Lenses as `crevice ao` takes them, and what is for meshes only.
+act frame.exr --lens 40 --sensor 30 <<'END'
+size 640 400
+overlay off
+split 1
+wait
+canvas lens.png
+command left
+quit
+END
+grep -q -- '--lens 40 --sensor 30' stdout.txt || fail "no lens in the command"
+PATH="$(dirname "$tool"):$PATH" sh -ec "$(grep '^crevice ao' stdout.txt)" 2>/dev/null
+same lens.png ao.png R 0 Y
+good compare --json lens.png frame.png --channel R
+at_least "$(number max_error)" 0.01 "difference of two lenses"
+bad 2 'contradicts --hfov' view frame.exr --vfov 40 --hfov 40
+bad 2 'is for --lens' view frame.exr --sensor 30
+bad 2 'are for meshes' view frame.exr --eye 0,0,1
+bad 2 'are for frames' view builtin:corner --vfov fit
+bad 1 'no.json' view frame.exr --camera no.json
+
 # A shot is scrubbed through; the last frame is damaged, which is told and no more.
 cp frame.exr shot.1.exr
 good gbuffer builtin:corner --size 640x400 -o shot.2.exr -q
@@ -171,9 +192,12 @@ wait
 canvas storm.png
 command left
 measure left radius 0.1 0.5 3
+start
 quit
 END
-grep -q '^radius: 3 changes, median [0-9.]* ms' stdout.txt || fail "nothing is measured"
+grep -q '^radius: 3 changes, median [0-9.]* ms.*method [0-9.]*, colours' stdout.txt ||
+    fail "nothing is measured"
+grep -q '^start: input read after [0-9]* ms, window' stdout.txt || fail "no start"
 PATH="$(dirname "$tool"):$PATH" sh -ec "$(grep '^crevice render' stdout.txt)" 2>/dev/null
 same storm.png ao.png R 0 Y
 
