@@ -32,6 +32,7 @@ if [ -n "$clean_root" ]; then
     chroot "$out/root" sh -c 'apt-get -qq update && apt-get -qq install -y \
         --no-install-recommends $(ls /tmp/*.deb | grep -v dbgsym)' >"$out/install.log" 2>&1
     chroot "$out/root" crevice render builtin:courtyard -o /tmp/ao.png --size 640x360
+    chroot "$out/root" crevice view --help | grep -q 'crevice view INPUT'
     chroot "$out/root" python3 -c 'import crevice, numpy
 print(crevice.ao(numpy.full((8, 8), 2.0), vfov=60, radius=1).mean())'
     ls -l "$out/root/tmp/ao.png"
@@ -47,6 +48,7 @@ LD_LIBRARY_PATH=$libraries
 export LD_LIBRARY_PATH
 "$out/root/usr/bin/crevice" render builtin:courtyard -o "$out/ao.png" --size 160x90 -q
 [ -s "$out/ao.png" ]
+"$out/root/usr/bin/crevice" view --help | grep -q 'crevice view INPUT'
 PYTHONPATH=$out/root/usr/lib/python3/dist-packages /usr/bin/python3 -c 'import crevice, numpy
 assert abs(crevice.ao(numpy.full((8, 8), 2.0), vfov=60, radius=1) - 1).max() < 1e-3'
 PKG_CONFIG_PATH=$libraries/pkgconfig PKG_CONFIG_SYSROOT_DIR=
