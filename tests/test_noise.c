@@ -65,6 +65,30 @@ static void pairs_are_spread(void **state)
     free(tile);
 }
 
+/* Every line of four pixels, and every 2x2 block, holds all quarters of the rotation and
+ * of the jitter, every line those of the sector offset, too. */
+static void lines_hold_all_quarters(void **state)
+{
+    (void)state;
+    static const int LINES[3][4] = {{0, 1, 2, 3}, {0, 4, 8, 12}, {0, 1, 4, 5}};
+    crv__noise_texel *tile = make(4, 1, 0);
+    for (int k = 0; k < 3 * 4; k++) {
+        static const int FIRST[3][4] = {{0, 4, 8, 12}, {0, 1, 2, 3}, {0, 2, 8, 10}};
+        unsigned found[3] = {0};
+        for (int i = 0; i < 4; i++) {
+            const crv__noise_texel *t = &tile[FIRST[k / 4][k % 4] + LINES[k / 4][i]];
+            const double alpha = atan2((double)t->sin_alpha, (double)t->cos_alpha);
+            found[0] |= 1u << (int)(alpha * 4);
+            found[1] |= 1u << (int)(((double)t->beta + 1) * 2);
+            found[2] |= 1u << (int)((double)t->sector_offset * 4);
+        }
+        assert_int_equal(found[0], 15);
+        assert_int_equal(found[1], 15);
+        assert_true(found[2] == 15 || k / 4 == 2);
+    }
+    free(tile);
+}
+
 static void seeds_make_other_tiles(void **state)
 {
     (void)state;
@@ -81,6 +105,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tiles_are_stratified),
         cmocka_unit_test(pairs_are_spread),
+        cmocka_unit_test(lines_hold_all_quarters),
         cmocka_unit_test(seeds_make_other_tiles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -6,11 +6,11 @@
 
 /*
  * Fills a size x size tile of rotations alpha in [0, sector_rad), jitters beta in (-1, 1)
- * and sector offsets in [0, 1). The triples are a Hammersley set (bases 2 and 3), so that
- * any size x size window of pixels holds a well-spread sample of all. They are laid out
- * by an ordered-dither matrix where size is a power of two (neighbours differ much) and
- * shuffled otherwise. `seed` shifts the set and its layout. scratch: size * size
- * integers.
+ * and sector offsets in [0, 1). Each is stratified over the tile. Of a size that is a
+ * power of two, 4 at least, so is every row and column of a 4x4 block: a filter finds all
+ * quarters of each of the three on a line of four pixels, and all pairs of quarters in a
+ * block. Other sizes take a Hammersley set (bases 2 and 3), shuffled. `seed` shifts the
+ * numbers and their layout. scratch: size * size integers.
  */
 void crv__noise_fill(crv__noise_texel *tile, int32_t size, double sector_rad,
                      int32_t seed, uint32_t *scratch);
