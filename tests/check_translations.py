@@ -48,13 +48,15 @@ def faults_of(name, module, glslang, folder):
 
 
 def lifted(shaders, folder):
-    """Paths of lifted_hbao.comp with other methods in hbao's place."""
+    """Paths of lifted_hbao.comp with other methods in hbao's place, and bent normals."""
     with open(os.path.join(shaders, "lifted_hbao.comp"), encoding="utf-8") as file:
         text = file.read()
     for name, functions in LIFTED.items():
         path = os.path.join(folder, f"lifted_{name}.comp")
         with open(path, "w", encoding="utf-8") as file:
-            file.write(text.replace('#include "hbao.glsl"', f'{functions}#include "{name}.glsl"'))
+            file.write(text.replace('#include "hbao.glsl"', f'{functions}#include "{name}.glsl"')
+                       .replace('#include "lifted.glsl"',
+                                '#define BENT_NORMAL 1\n#include "lifted.glsl"'))
         yield path
 
 

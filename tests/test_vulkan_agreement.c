@@ -25,6 +25,16 @@
  */
 static const double TOLERANCE = 2e-3, SHARE = 1e-3;
 
+/*
+ * Of bent normals, radians, where A is open. They are sums of unit vectors, two thirds of
+ * A long with all weightings but half of it with the uniform one: what moves A by the
+ * tolerance moves the tip by as much, and the direction by 2 / A as much.
+ */
+static double bent_tolerance(double A)
+{
+    return TOLERANCE * 2 / fmax(A, 0.02);
+}
+
 enum { SIZE = 90 };
 
 typedef struct settings {
@@ -70,12 +80,25 @@ static int32_t result_height(const simd_case *c)
     return c->desc.height - c->desc.guard_top - c->desc.guard_bottom;
 }
 
-/* The result, packed, which the caller frees; NULL after a line. */
+/* Whether bent normals are computed as well. */
+static int has_bent(const simd_case *c)
+{
+    return c->options.bent_normal && c->options.method->bent_normal && !c->input;
+}
+
+/* The result, packed, and bent normals behind it, which the caller frees; NULL after a
+ * line. */
 static float *computed(crv_context *context, const simd_case *c)
 {
     const int32_t width = result_width(c), height = result_height(c);
-    float *pixels = malloc((size_t)width * (size_t)height * sizeof *pixels);
+    const size_t count = (size_t)width * (size_t)height;
+    float *pixels = calloc(4 * count, sizeof *pixels);
     const crv_image result = crv_image_packed(pixels, width, height, 1);
+    crv_result both;
+    crv_result_init(&both, sizeof both);
+    both.accessibility = result;
+    if (has_bent(c) && pixels)
+        both.bent_normal = crv_image_packed(pixels + count, width, height, 3);
     crv_gbuffer *gbuffer = NULL;
     crv_plan *plan = NULL;
     crv_status status = pixels ? CRV_OK : CRV_ERROR_OUT_OF_MEMORY;
@@ -89,7 +112,7 @@ static float *computed(crv_context *context, const simd_case *c)
         const crv_const_image input = crv_const_image_packed(c->input, width, height, 1);
         status = crv_plan_filter(plan, gbuffer, &input, &result);
     } else if (status == CRV_OK) {
-        status = crv_plan_run(plan, gbuffer, &result);
+        status = crv_plan_run_result(plan, gbuffer, &both);
     }
     crv_plan_destroy(plan);
     crv_gbuffer_destroy(gbuffer);
@@ -108,6 +131,8 @@ typedef struct devices {
 typedef struct tally {
     int64_t pixels, over;
     double largest;
+    int64_t bent; /* pixels of which bent normals were compared */
+    double largest_rad;
 } tally;
 
 /* Returns how many pixels are over the tolerance. */
@@ -125,6 +150,36 @@ static int64_t compare(const float *expected, const float *got, int64_t count, t
     return over;
 }
 
+/* The angle between two vectors, radians. 0 if both are zero, as of background. */
+static double angle_between(const float *a, const float *b)
+{
+    double cross = 0, dot = 0, largest = 0;
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        const double part = (double)a[j] * (double)b[k] - (double)a[k] * (double)b[j];
+        cross += part * part;
+        dot += (double)a[i] * (double)b[i];
+        largest = fmax(largest, fmax(fabs((double)a[i]), fabs((double)b[i])));
+    }
+    return largest > 0 && dot == 0 && cross == 0 ? 4 : atan2(sqrt(cross), dot);
+}
+
+/* The same of bent normals. */
+static int64_t compare_bent(const float *expected, const float *got, int64_t count,
+                            tally *t)
+{
+    int64_t over = 0;
+    for (int64_t i = 0; i < count; i++) {
+        const double angle = angle_between(expected + count + 3 * i, got + count + 3 * i);
+        over += !(angle <= bent_tolerance((double)expected[i]));
+        if (!(angle <= t->largest_rad))
+            t->largest_rad = angle;
+    }
+    t->bent += count;
+    t->over += over;
+    return over;
+}
+
 /* Returns the number of faults. */
 static int check_case(const devices *d, const char *test, int32_t index,
                       const simd_case *c, tally *t)
@@ -132,7 +187,9 @@ static int check_case(const devices *d, const char *test, int32_t index,
     const int64_t count = (int64_t)result_width(c) * result_height(c);
     float *expected = computed(d->cpu, c), *got = computed(d->vulkan, c);
     const int done = expected && got;
-    const int64_t over = done ? compare(expected, got, count, t) : 0;
+    int64_t over = done ? compare(expected, got, count, t) : 0;
+    if (done && has_bent(c))
+        over += compare_bent(expected, got, count, t);
     if (!done || over > 2 + count / 100) {
         printf("%s, case %d: %d of %d px over %g\n", test, index, (int)over, (int)count,
                TOLERANCE);
@@ -156,6 +213,9 @@ static int report(const char *test, const tally *t)
     const int failed = (double)t->over > fmax(1, SHARE * (double)t->pixels);
     printf("%-12s %8d px, %d over %g, largest difference %.2g%s\n", test, (int)t->pixels,
            (int)t->over, TOLERANCE, t->largest, failed ? "  FAILED" : "");
+    if (t->bent)
+        printf("%12s %8d bent normals, largest angle %.2g degrees\n", "", (int)t->bent,
+               t->largest_rad * 57.29577951);
     return failed;
 }
 
@@ -176,6 +236,8 @@ static int check(const settings *s, const devices *d, const char *test,
                                  : NULL;
         simd_case *c = simd_case_make(&r, method, after, filter ? 1 : 0, SIZE,
                                       (simd_scene)(i % SIMD_SCENES));
+        if (c) /* half of the cases: the others show that nothing else changes */
+            c->options.bent_normal = i % 2;
         faults += c ? check_case(d, test, i, c, &t) : 1;
         simd_case_free(c);
     }
@@ -198,6 +260,7 @@ static int check_many(const settings *s, const devices *d)
             c->options.steps = simd_int(&r, 220, 256);
             c->options.normal_rays = simd_int(&r, 2, 8);
             c->options.samples = simd_int(&r, 3000, 4096);
+            c->options.bent_normal = 1;
         }
         faults += c ? check_case(d, "many", i, c, &t) : 1;
         simd_case_free(c);

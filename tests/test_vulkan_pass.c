@@ -284,7 +284,7 @@ static crv_status init_frame(room *r, size_t size)
 
 static crv_status use_frame(const user *u, room *r)
 {
-    if (r->struct_size == sizeof r->frame) {
+    if (r->struct_size >= offsetof(crv_vulkan_frame, bent_normal)) {
         r->frame.camera = crv_camera_perspective(SCENE_WIDTH, SCENE_HEIGHT, 1);
         r->frame.depth[0].view = u->in.depth.view;
         r->frame.result = u->in.result.image;
@@ -309,7 +309,8 @@ static void structs_of_every_earlier_size_are_taken(void **state)
         {sizeof(crv_vulkan_host), sizeof(crv_vulkan_host), init_host, use_host},
         {offsetof(crv_vulkan_pass_desc, normals), sizeof(crv_vulkan_pass_desc), init_desc,
          use_desc},
-        {sizeof(crv_vulkan_frame), sizeof(crv_vulkan_frame), init_frame, use_frame},
+        {offsetof(crv_vulkan_frame, bent_normal), sizeof(crv_vulkan_frame), init_frame,
+         use_frame},
     };
     scene_lines log = {0};
     scene_encoding e = ENCODINGS[0]; /* what the defaults of a pass are for */

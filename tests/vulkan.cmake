@@ -65,7 +65,7 @@ endif()
 # What renderers call, under the validation layer.
 find_package(Vulkan QUIET)
 if(Vulkan_FOUND)
-    foreach(name pass frames views formats failures)
+    foreach(name pass bent frames views formats failures)
         set(test test_vulkan_${name})
         crevice_test(${test} SOURCES ${test}.c vulkan_driver.c vulkan_engine.c vulkan_scene.c
                 vulkan_stage.c vulkan_texels.c ${PROJECT_SOURCE_DIR}/examples/vulkan_host_setup.c
@@ -86,8 +86,8 @@ if(Vulkan_FOUND)
         set_tests_properties(vulkan_portable PROPERTIES
             LABELS "vulkan;once" TIMEOUT 300 SKIP_RETURN_CODE 77)
     endif()
-    # Views, sizes, layers, options and noise that change each frame.
-    foreach(name frames views)
+    # Bent normals; views, sizes, layers, options and noise that change each frame.
+    foreach(name bent frames views)
         vulkan_validated(${name}
             "${enable}_SYNCHRONIZATION_VALIDATION_EXT:${enable}_BEST_PRACTICES_EXT"
             $<TARGET_FILE:test_vulkan_${name}>)

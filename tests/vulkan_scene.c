@@ -80,7 +80,7 @@ static void octahedral(const double n[3], double e[2])
     e[1] = n[2] >= 0 ? y : copysign(1 - fabs(x), y);
 }
 
-static void unfold(const double e[2], double n[3])
+void scene_unfold(const double e[2], double n[3])
 {
     n[2] = 1 - fabs(e[0]) - fabs(e[1]);
     n[0] = n[2] >= 0 ? e[0] : copysign(1 - fabs(e[1]), e[0]);
@@ -104,7 +104,7 @@ static void put_normal(VkFormat format, crv_vulkan_normals kind, double n[3], vo
         stored[k] = halved ? held * 2 - 1 : held;
     }
     if (flat)
-        unfold(stored, n);
+        scene_unfold(stored, n);
     else
         memcpy(n, stored, sizeof stored);
 }
@@ -187,18 +187,22 @@ static int result_height(const scene *s)
     return s->desc.height - s->desc.guard_top - s->desc.guard_bottom;
 }
 
-/* The scene on a context, through the ordinary interface. */
-float *scene_planned(crv_context *context, const scene *s, const scene_encoding *e)
+/* The scene on a context, through the ordinary interface. bent NULL: not wanted. */
+static float *planned(crv_context *context, const scene *s, const scene_encoding *e,
+                      crv_options options, float *bent)
 {
-    const crv_options options = scene_options(e);
+    options.bent_normal = bent ? 1 : 0;
     const crv_depth_format format = scene_depth_format(e);
     const crv_const_image depth =
         crv_const_image_packed(s->depth, s->desc.width, s->desc.height, 1);
     const crv_const_image normals =
         crv_const_image_packed(s->normals, s->desc.width, s->desc.height, 3);
     float *pixels = malloc(SCENE_PIXELS * sizeof *pixels);
-    const crv_image result =
-        crv_image_packed(pixels, result_width(s), result_height(s), 1);
+    crv_result result;
+    crv_result_init(&result, sizeof result);
+    result.accessibility = crv_image_packed(pixels, result_width(s), result_height(s), 1);
+    if (bent)
+        result.bent_normal = crv_image_packed(bent, result_width(s), result_height(s), 3);
     crv_gbuffer *gbuffer = NULL;
     crv_plan *plan = NULL;
     assert_non_null(pixels);
@@ -208,13 +212,24 @@ float *scene_planned(crv_context *context, const scene *s, const scene_encoding 
     if (e->normals)
         assert_int_equal(crv_gbuffer_set_normals(gbuffer, &normals, e->space), CRV_OK);
     assert_int_equal(crv_plan_create(context, &options, &s->desc, &plan), CRV_OK);
-    assert_int_equal(crv_plan_run(plan, gbuffer, &result), CRV_OK);
+    assert_int_equal(crv_plan_run_result(plan, gbuffer, &result), CRV_OK);
     crv_plan_destroy(plan);
     crv_gbuffer_destroy(gbuffer);
     return pixels;
 }
 
+float *scene_planned(crv_context *context, const scene *s, const scene_encoding *e)
+{
+    return planned(context, s, e, scene_options(e), NULL);
+}
+
 float *scene_scalar(const scene *s, const scene_encoding *e)
+{
+    return scene_scalar_bent(s, e, scene_options(e), NULL);
+}
+
+float *scene_scalar_bent(const scene *s, const scene_encoding *e, crv_options options,
+                         float *bent)
 {
     crv_context *context = NULL;
     crv_context_desc desc;
@@ -222,7 +237,7 @@ float *scene_scalar(const scene *s, const scene_encoding *e)
     desc.isa_mask = 1u << CRV_ISA_SCALAR;
     desc.exact = 1;
     assert_int_equal(crv_context_create(&desc, &context), CRV_OK);
-    float *pixels = scene_planned(context, s, e);
+    float *pixels = planned(context, s, e, options, bent);
     crv_context_destroy(context);
     return pixels;
 }

@@ -52,6 +52,12 @@ crv_vulkan_pass_desc scene_pass_desc(const scene_encoding *e);
 /* The picture, which the caller frees: of a plan on a context, and of the scalar code. */
 float *scene_planned(crv_context *context, const scene *s, const scene_encoding *e);
 float *scene_scalar(const scene *s, const scene_encoding *e);
+/* The same of other options, with bent normals, three floats for each pixel. */
+float *scene_scalar_bent(const scene *s, const scene_encoding *e, crv_options options,
+                         float *bent);
+
+/* The vector of two octahedral numbers, of any length. */
+void scene_unfold(const double e[2], double n[3]);
 
 typedef struct scene_images {
     host_image depth, normals, result;

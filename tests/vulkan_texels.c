@@ -141,7 +141,12 @@ double texel_get(const texel_layout *t, int k, const void *texel)
         return get_small_float(t, k, texel);
     if (t->kind == TEXEL_UNSIGNED)
         return word / (double)((1u << bits) - 1);
-    assert_int_equal(t->kind, TEXEL_FLOAT); /* no signed image is read back */
+    if (t->kind == TEXEL_SIGNED) {
+        const int32_t half = (int32_t)(1u << (bits - 1));
+        const int32_t whole =
+            (int32_t)word >= half ? (int32_t)word - 2 * half : (int32_t)word;
+        return fmax(-1, (double)whole / (half - 1));
+    }
     float number;
     memcpy(&number, &word, sizeof number);
     return (double)number;

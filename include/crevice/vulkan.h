@@ -127,11 +127,14 @@ typedef enum crv_vulkan_normals {
  *   R32G32_SFLOAT, R8G8B8A8_UNORM, B8G8R8A8_UNORM, A8B8G8R8_UNORM_PACK32,
  *   A2R10G10B10_UNORM_PACK32, A2B10G10R10_UNORM_PACK32, B10G11R11_UFLOAT_PACK32,
  *   R16G16B16A16_UNORM, R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT.
+ * Bent normals: R16G16_SFLOAT and R16G16_SNORM, octahedral in x, y (background: 0, 0);
+ *   R16G16B16A16_SFLOAT and R32G32B32A32_SFLOAT, x, y, z and 0 (background: 0, 0, 0).
  */
 
 /* Whether the filters bilateral13 and gauss5 compute in half floats, two pixels at a
  * time. Results differ by at most 2e-3. Depth stays in 32 bits. Without effect unless the
- * device has shaderFloat16 and filter_normal is 10 to 90 or 180 degrees. */
+ * device has shaderFloat16 and filter_normal is 10 to 90 or 180 degrees, or with bent
+ * normals. */
 typedef enum crv_vulkan_half {
     CRV_VULKAN_HALF_AUTO = 0, /* on, except on devices that are CPUs: slower there */
     CRV_VULKAN_HALF_OFF = 1,
@@ -180,6 +183,10 @@ typedef struct crv_vulkan_pass_desc {
      * as far the second, and so on. 1 or more, default 16; below that errors grow. */
     int32_t level_px;
     crv_vulkan_half half_filters; /* default AUTO */
+    /* Of the bent normal (crv_weighting, options.h), which is computed if this is a
+     * format. Methods whose crv_method.bent_normal is 1; the option of that name is not
+     * read. Default UNDEFINED: none. */
+    VkFormat bent_normal_format;
 } crv_vulkan_pass_desc;
 
 /* Sets the defaults. Pass sizeof *desc as struct_size (base.h). Errors: INVALID_ARGUMENT.
@@ -212,7 +219,8 @@ CRV_API void crv_vulkan_pass_destroy(crv_vulkan_pass *pass);
  * may be called each frame. These are fixed when the pass is created: method, filter,
  * falloff, directions, steps, spacing, normal_rays, samples, attenuation, noise_size and
  * filter_slope, whether bias_deg is 0, and whether filter_normal allows half floats. So
- * is thickness_rule, but only if it was not width at first and shall be.
+ * is thickness_rule, but only if it was not width at first and shall be; and, of plans,
+ * bent_normal.
  * Errors, with nothing changed: INVALID_ARGUMENT; UNSUPPORTED, with a line that names the
  * option, if it is fixed.
  */
@@ -277,6 +285,11 @@ typedef struct crv_vulkan_frame {
     /* The next use of the result. Default: sampled in fragment and compute shaders. */
     VkPipelineStageFlags2 result_stages;
     VkAccessFlags2 result_access;
+
+    /* The bent normal, view space, if the pass has a format for it. All that is said of
+     * the result holds for it: level, layer, texel, layouts, stages. */
+    VkImage bent_normal;
+    VkImageView bent_normal_view;
 } crv_vulkan_frame;
 
 /* Sets the defaults. Camera, views and images are left to set. Pass sizeof *frame as

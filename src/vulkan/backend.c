@@ -17,13 +17,16 @@ typedef struct plan_state {
 static crv_status create_staging(crv__staging *s, const crv__device *d,
                                  const crv__setup *setup)
 {
-    enum { TEXEL = 16 }; /* bytes, of normals, which begin at a multiple of it */
+    enum { TEXEL = 16 }; /* bytes, of vectors, which begin at a multiple of it */
     const crv__rectangle r = crv__setup_rectangle(setup);
     const size_t pixels = (size_t)setup->desc.width * (size_t)setup->desc.height;
     const size_t depth = pixels * (size_t)setup->desc.layers * sizeof(float);
     s->normals = (depth + TEXEL - 1) / TEXEL * TEXEL;
     s->accessibility = s->normals + pixels * TEXEL;
-    s->size = s->accessibility + (size_t)r.width * (size_t)r.height * sizeof(float);
+    const size_t estimated = (size_t)r.width * (size_t)r.height;
+    const size_t end = s->accessibility + estimated * sizeof(float);
+    s->bent = (end + TEXEL - 1) / TEXEL * TEXEL;
+    s->size = setup->has_bent ? s->bent + estimated * TEXEL : end;
     return crv__buffer_create(&s->buffer, d, "staging", s->size,
                               VK_BUFFER_USAGE_TRANSFER_SRC_BIT
                                   | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
@@ -49,15 +52,12 @@ static crv_status plan_create(const crv__setup *setup, const crv__plane *rectang
                                  .slots = 1,
                                  .depth_layout = d->plan_layout,
                                  .level_px = LEVEL_PX,
-                                 .half_filters = d->plan_half};
+                                 .half_filters = d->plan_half,
+                                 .bent = setup->has_bent};
     (void)rectangle; /* the setup's own */
     crv_status status = crv__setup_check(d, setup);
     if (status)
         return status;
-    if (setup->has_bent)
-        return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
-                         "vulkan: bent normals are for the CPU only; use a CPU context, "
-                         "or bent_normal=0");
     plan_state *state = crv__allocate(&setup->context->allocator, 1, sizeof *state);
     if (!state)
         return crv__fail(&d->logger, CRV_ERROR_OUT_OF_MEMORY, "plan: out of memory");
@@ -94,6 +94,16 @@ static void unpack_plane(const float *in, const crv__plane *plane)
     for (int32_t y = 0; y < plane->height; y++)
         memcpy(crv__plane_at(plane, plane->x0, plane->y0 + y),
                in + (size_t)y * (size_t)plane->width, (size_t)plane->width * sizeof *in);
+}
+
+/* Of vectors of four. */
+static void unpack_vectors(const float *in, const crv__plane planes[3])
+{
+    const crv__plane *p = &planes[0];
+    for (int32_t y = p->y0; y < p->y0 + p->height; y++)
+        for (int32_t x = p->x0; x < p->x0 + p->width; x++, in += 4)
+            for (int i = 0; i < 3; i++)
+                *crv__plane_at(&planes[i], x, y) = in[i];
 }
 
 static void pack_normals(const crv__frame *f, float *out)
@@ -151,7 +161,8 @@ static crv_status run(const crv__work *work, const crv__picture pictures[2],
                           .staging = &state->staging,
                           .submit = submit,
                           .user = work,
-                          .filter_only = work->filter_only};
+                          .filter_only = work->filter_only,
+                          .with_bent = work->with_bent};
     if (work->frame->params->use_field)
         return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
                          "vulkan: height fields and implicit surfaces are for the CPU "
@@ -168,6 +179,8 @@ static crv_status run(const crv__work *work, const crv__picture pictures[2],
         return status;
     *out = pictures[state->pass.program.passes % 2];
     unpack_plane(staged(state, state->staging.accessibility), &out->accessibility);
+    if (work->with_bent)
+        unpack_vectors(staged(state, state->staging.bent), out->bent);
     return CRV_OK;
 }
 

@@ -12,7 +12,7 @@ typedef enum format_kind {
     KIND_UNSIGNED
 } format_kind;
 
-enum { FOR_DEPTH = 1, FOR_NORMALS = 2, FOR_RESULTS = 4 };
+enum { FOR_DEPTH = 1, FOR_NORMALS = 2, FOR_RESULTS = 4, FOR_BENT = 8, FOR_ALL = 15 };
 
 typedef struct format_row {
     VkFormat format;
@@ -35,12 +35,12 @@ static const format_row FORMATS[] = {
     ROW(R16_UNORM, KIND_UNSIGNED, 1, FOR_DEPTH | FOR_RESULTS)
     ROW(R16_SFLOAT, KIND_FLOAT, 1, FOR_DEPTH | FOR_RESULTS)
     ROW(R32_SFLOAT, KIND_FLOAT, 1, FOR_DEPTH | FOR_RESULTS)
-    ROW(R16G16_SFLOAT, KIND_FLOAT, 2, FOR_DEPTH | FOR_NORMALS | FOR_RESULTS)
+    ROW(R16G16_SFLOAT, KIND_FLOAT, 2, FOR_ALL)
     ROW(R32G32_SFLOAT, KIND_FLOAT, 2, FOR_DEPTH | FOR_NORMALS | FOR_RESULTS)
-    ROW(R16G16B16A16_SFLOAT, KIND_FLOAT, 4, FOR_DEPTH | FOR_NORMALS | FOR_RESULTS)
-    ROW(R32G32B32A32_SFLOAT, KIND_FLOAT, 4, FOR_DEPTH | FOR_NORMALS | FOR_RESULTS)
+    ROW(R16G16B16A16_SFLOAT, KIND_FLOAT, 4, FOR_ALL)
+    ROW(R32G32B32A32_SFLOAT, KIND_FLOAT, 4, FOR_ALL)
     ROW(R8G8_SNORM, KIND_SIGNED, 2, FOR_NORMALS)
-    ROW(R16G16_SNORM, KIND_SIGNED, 2, FOR_NORMALS)
+    ROW(R16G16_SNORM, KIND_SIGNED, 2, FOR_NORMALS | FOR_BENT)
     ROW(R8G8B8A8_SNORM, KIND_SIGNED, 4, FOR_NORMALS)
     ROW(A8B8G8R8_SNORM_PACK32, KIND_SIGNED, 4, FOR_NORMALS)
     ROW(A2B10G10R10_SNORM_PACK32, KIND_SIGNED, 4, FOR_NORMALS)
@@ -80,7 +80,7 @@ bool crv__format_has(const crv__device *d, VkFormat format, VkFormatFeatureFlags
 static crv_status check_format(const crv__device *d, VkFormat format, int use,
                                const char *what, const char *instead)
 {
-    const bool stored = use == FOR_RESULTS;
+    const bool stored = use == FOR_RESULTS || use == FOR_BENT;
     const format_row *row = row_of(format);
     if (!row || !(row->uses & use))
         return crv__fail(&d->logger, CRV_ERROR_UNSUPPORTED,
@@ -137,6 +137,9 @@ crv_status crv__formats_check(const crv__device *d, const crv_vulkan_pass_desc *
     if (status == CRV_OK)
         status =
             check_format(d, desc->result_format, FOR_RESULTS, "result", "R32_SFLOAT");
+    if (status == CRV_OK && desc->bent_normal_format)
+        status = check_format(d, desc->bent_normal_format, FOR_BENT, "bent_normal",
+                              "R16G16B16A16_SFLOAT");
     return status;
 }
 
@@ -238,4 +241,9 @@ crv_status crv__layouts_check(const crv_logger *logger, const crv_vulkan_pass_de
                          "that it is read in, such as SHADER_READ_ONLY_OPTIMAL",
                          row->name);
     return CRV_OK;
+}
+
+bool crv__format_is_octahedral(VkFormat format)
+{
+    return row_of(format) && row_of(format)->components == 2;
 }

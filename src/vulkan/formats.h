@@ -10,6 +10,9 @@
 bool crv__format_has(const crv__device *d, VkFormat format,
                      VkFormatFeatureFlags features);
 
+/* Whether bent normals are two octahedral numbers in such an image, not x, y, z. */
+bool crv__format_is_octahedral(VkFormat format);
+
 /* INVALID_ARGUMENT if normals are not stored like that in such a format, UNSUPPORTED if a
  * format is not listed or the device lacks it. Each logs its line. */
 crv_status crv__formats_check(const crv__device *d, const crv_vulkan_pass_desc *desc);

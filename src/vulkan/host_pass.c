@@ -78,7 +78,12 @@ static crv_status create_parts(crv_vulkan_pass *p)
                                  .slots = p->desc.frames,
                                  .depth_layout = p->desc.depth_layout,
                                  .level_px = p->desc.level_px,
-                                 .half_filters = p->desc.half_filters};
+                                 .half_filters = p->desc.half_filters,
+                                 .bent = p->desc.bent_normal_format != 0,
+                                 .bent_form =
+                                     crv__format_is_octahedral(p->desc.bent_normal_format)
+                                         ? CRV__BENT_OCTAHEDRAL
+                                         : CRV__BENT_UNIT};
     if (crv__setup_patterns(&p->setup))
         return crv__fail(&p->context->logger, CRV_ERROR_OUT_OF_MEMORY,
                          "pass: out of memory");
@@ -106,6 +111,12 @@ crv_status crv_vulkan_pass_create(crv_context *context, const crv_options *optio
         status = take_desc(logger, desc, &full);
     if (status == CRV_OK)
         status = crv__formats_check(d, &full);
+    if (status == CRV_OK && full.bent_normal_format && !setup.options.method->bent_normal)
+        return crv__fail(
+            logger, CRV_ERROR_INVALID_ARGUMENT,
+            "pass: %s gives no bent normals; leave bent_normal_format "
+            "UNDEFINED, or choose a method whose crv_method.bent_normal is 1",
+            setup.options.method->name);
     if (status)
         return status;
     status = crv__setup_check(d, &setup);
@@ -154,6 +165,7 @@ crv_status crv_vulkan_pass_set_options(crv_vulkan_pass *p, const crv_options *op
     if (status)
         return status;
     const crv_options before = p->setup.options;
+    full.bent_normal = before.bent_normal; /* the desc's format decides */
     const char *key = crv__pass_fixes(&p->pass, &full);
     if (!key)
         key = crv__setup_obstacle(&p->setup, &full);
@@ -239,6 +251,10 @@ static crv_status check_frame(const crv_vulkan_pass *p, VkCommandBuffer commands
         return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
                          "pass: the result's image or view is missing; set result and "
                          "result_view");
+    if (p->desc.bent_normal_format && (!frame->bent_normal || !frame->bent_normal_view))
+        return crv__fail(logger, CRV_ERROR_INVALID_ARGUMENT,
+                         "pass: the bent normal's image or view is missing; set "
+                         "bent_normal and bent_normal_view");
     crv_status status = check_size(p, frame);
     if (status == CRV_OK)
         status = crv__layouts_check(logger, &p->desc, p->setup.desc.layers, frame);

@@ -32,12 +32,16 @@ static crv_status create_parts(crv__pass *p, const crv__setup *setup,
                     ? crv__deinterleave_edge(d, setup)
                     : 1,
         .half = wants_half(d, desc->half_filters),
-        .level_px = layout == CRV_VULKAN_DEPTH_LEVELS ? desc->level_px : 0};
+        .level_px = layout == CRV_VULKAN_DEPTH_LEVELS ? desc->level_px : 0,
+        .bent = desc->bent,
+        .bent_form = desc->bent_form};
     const crv__scratch_desc scratch = {
         .normal_format =
             desc->single ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R32G32_SFLOAT,
         .accessibility_format =
-            desc->single ? sure : preferred(d, VK_FORMAT_R16_SFLOAT, sure)};
+            desc->single ? sure : preferred(d, VK_FORMAT_R16_SFLOAT, sure),
+        .bent_format =
+            desc->single ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R16G16B16A16_SFLOAT};
     const bool timestamps = desc->timestamps && d->timestamp_bits > 0;
     crv_status status = crv__program_create(&p->program, d, setup, &program);
     if (status == CRV_OK)
@@ -81,9 +85,9 @@ const char *crv__pass_fixes(const crv__pass *p, const crv_options *options)
 {
     const crv_options *own = &p->options;
     /* Specialisation constants, and what buffers are as large as. */
-    static const char *const KEYS[] = {"falloff",     "directions",  "steps",
-                                       "spacing",     "normal_rays", "samples",
-                                       "attenuation", "noise_size",  "filter_slope"};
+    static const char *const KEYS[] = {
+        "falloff", "directions",  "steps",      "spacing",      "normal_rays",
+        "samples", "attenuation", "noise_size", "filter_slope", "bent_normal"};
     if (own->method != options->method)
         return "method";
     if (own->filter != options->filter)

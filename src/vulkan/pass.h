@@ -26,6 +26,8 @@ typedef struct crv__pass_desc {
     crv_vulkan_depth_layout depth_layout;
     int32_t level_px;
     crv_vulkan_half half_filters;
+    bool bent;                /* bent normals, too */
+    crv__bent_form bent_form; /* in which they are left */
 } crv__pass_desc;
 
 /* The setup has its patterns. Destroy also after an error. */

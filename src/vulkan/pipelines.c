@@ -13,7 +13,7 @@ VkDescriptorType crv__binding_type(uint32_t binding)
         return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     if (binding < CRV__BIND_DEPTH)
         return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    return binding == CRV__BIND_OUTPUT || binding == CRV__BIND_NORMALS_OUTPUT
+    return binding == CRV__BIND_OUTPUT || binding == CRV__BIND_VECTORS_OUTPUT
                ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
                : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
 }
@@ -26,6 +26,7 @@ void crv__specs_clear(int32_t specs[CRV__SPECS], int32_t group)
     specs[CRV__SPEC_PIXEL_STRIDE] = specs[CRV__SPEC_DEPTH_EDGE] = 1;
     specs[CRV__SPEC_NORMALS_OCTAHEDRAL] = specs[CRV__SPEC_LOD_PX] = 0;
     specs[CRV__SPEC_IN_PARTS] = 0;
+    specs[CRV__SPEC_BENT_NORMAL] = specs[CRV__SPEC_BENT_FORM] = 0;
 }
 
 static VkResult create_layouts(const crv__device *d, crv__pipelines *p)

@@ -19,11 +19,18 @@ enum {
     CRV__BIND_INPUT,
     CRV__BIND_OUTPUT,
     CRV__BIND_HOST_DEPTH,
-    CRV__BIND_HOST_NORMALS,
-    CRV__BIND_NORMALS_OUTPUT,
+    CRV__BIND_VECTORS, /* the host's normals; bent normals, or their sums */
+    CRV__BIND_VECTORS_OUTPUT,
     CRV__BIND_MAP,
     CRV__BINDINGS
 };
+
+/* How a step leaves bent normals (shaders/bent.glsl). */
+typedef enum crv__bent_form {
+    CRV__BENT_AS_SUMMED, /* of any length: for further steps, and for plans */
+    CRV__BENT_UNIT,
+    CRV__BENT_OCTAHEDRAL
+} crv__bent_form;
 
 /* Specialisation constants, by id (shaders/common.glsl). */
 enum {
@@ -48,6 +55,8 @@ enum {
     CRV__SPEC_FILTER_PASS,
     CRV__SPEC_LOD_PX,
     CRV__SPEC_IN_PARTS,
+    CRV__SPEC_BENT_NORMAL,
+    CRV__SPEC_BENT_FORM,
     CRV__SPECS
 };
 

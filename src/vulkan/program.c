@@ -85,6 +85,13 @@ static void clear_specs(const crv__program *p, crv__pipeline *pipeline, int32_t 
     specs[CRV__SPEC_NORMALS_OCTAHEDRAL] = p->desc.octahedral;
 }
 
+static void set_bent(const crv__program *p, bool is_last, int32_t specs[CRV__SPECS])
+{
+    specs[CRV__SPEC_BENT_NORMAL] = p->desc.bent;
+    specs[CRV__SPEC_BENT_FORM] =
+        (int32_t)(is_last ? p->desc.bent_form : CRV__BENT_AS_SUMMED);
+}
+
 static crv_status take_estimate(crv__program *p, const crv__setup *setup, int32_t group)
 {
     const crv_options *o = &setup->options;
@@ -105,6 +112,7 @@ static crv_status take_estimate(crv__program *p, const crv__setup *setup, int32_
     specs[CRV__SPEC_LAYERS_SOLID] = setup->desc.layer_kind == CRV_LAYERS_SOLID;
     specs[CRV__SPEC_SPACING] = (int32_t)o->spacing;
     specs[CRV__SPEC_BIASED] = o->bias_deg > 0;
+    set_bent(p, p->passes == 0, specs);
     return crv__pipeline_take(p->device, setup->method->info.name, specs,
                               &p->estimate.pipeline);
 }
@@ -120,12 +128,14 @@ static bool has_half(const crv_filter *filter)
 /*
  * Angles that half floats tell apart: an error of 2^-12 in each normal changes 1 - cos of
  * an angle by a share of 2^-10 over the angle. half.glsl leaves out surfaces without a
- * normal, which angles beyond 90 degrees let in; at 180 normals do not count.
+ * normal, which angles beyond 90 degrees let in; at 180 normals do not count. Bent
+ * normals are filtered in single precision.
  */
 bool crv__program_uses_half(const crv__program *p, const crv_options *options)
 {
     const float least_deg = 10, most_deg = 90, angle = options->filter_normal;
-    return p->desc.half && p->device->has_half && has_half(options->filter)
+    return p->desc.half && !p->desc.bent && p->device->has_half
+           && has_half(options->filter)
            && ((angle >= least_deg && angle <= most_deg) || angle >= 180);
 }
 
@@ -136,6 +146,7 @@ static crv_status take_filter(crv__program *p, const crv__setup *setup, int32_t 
     clear_specs(p, &p->filter[pass], group, specs);
     specs[CRV__SPEC_FILTER_SLOPE] = setup->options.filter_slope;
     specs[CRV__SPEC_FILTER_PASS] = pass;
+    set_bent(p, pass + 1 == p->passes, specs);
     const bool half = crv__program_uses_half(p, &setup->options);
     char name[32];
     snprintf(name, sizeof name, "%s%s", setup->filter->info.name, half ? "_half" : "");

@@ -23,6 +23,8 @@ typedef struct crv__program_desc {
     int32_t edge;    /* of the phases by which depth is deinterleaved, px; 1: it is not */
     bool half;       /* filters compute in half floats if the device can */
     int32_t level_px; /* distance from which coarser levels of depth are read; 0: never */
+    bool bent;        /* bent normals are computed, too */
+    crv__bent_form bent_form; /* of the last step */
 } crv__program_desc;
 
 typedef struct crv__program {

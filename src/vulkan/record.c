@@ -91,6 +91,22 @@ static void wait_between(const recorder *r)
 
 /* ---- the images ---- */
 
+/* Barriers of what the host gets, one or two; their number. */
+static uint32_t result_barriers(const recorder *r, VkImageLayout before,
+                                VkImageLayout after, crv__access from, crv__access to,
+                                VkImageMemoryBarrier2 out[2])
+{
+    const crv_vulkan_frame *f = r->job->frame;
+    const VkImage images[2] = {f->result, f->bent_normal};
+    const uint32_t count = r->program->desc.bent ? 2 : 1;
+    for (uint32_t i = 0; i < count; i++) {
+        out[i] = crv__image_barrier(images[i], before, after, from, to);
+        out[i].subresourceRange = (VkImageSubresourceRange){
+            VK_IMAGE_ASPECT_COLOR_BIT, f->result_level, 1, f->result_layer, 1};
+    }
+    return count;
+}
+
 /* Those of the pass, whatever they held, after the recording before has done with them;
  * the result, after its last users. */
 static void record_images(const recorder *r)
@@ -100,7 +116,7 @@ static void record_images(const recorder *r)
     const crv__access used = crv__access_both(
         written, (crv__access){CRV__COPIED_FROM.stages, VK_ACCESS_2_NONE});
     const crv__access ready = crv__access_both(written, CRV__SAMPLED);
-    VkImageMemoryBarrier2 barriers[CRV__SCRATCH_IMAGES + 1];
+    VkImageMemoryBarrier2 barriers[CRV__SCRATCH_IMAGES + 2];
     uint32_t count = 0;
     for (int i = 0; i < CRV__SCRATCH_IMAGES; i++) {
         if (image_of(r, i))
@@ -108,14 +124,11 @@ static void record_images(const recorder *r)
                 crv__image_barrier(image_of(r, i), VK_IMAGE_LAYOUT_UNDEFINED,
                                    VK_IMAGE_LAYOUT_GENERAL, used, ready);
     }
-    if (f) {
-        barriers[count] = crv__image_barrier(
-            f->result, f->result_layout_before, VK_IMAGE_LAYOUT_GENERAL,
-            (crv__access){f->result_stages_before, f->result_access_before},
-            CRV__WRITTEN);
-        barriers[count++].subresourceRange = (VkImageSubresourceRange){
-            VK_IMAGE_ASPECT_COLOR_BIT, f->result_level, 1, f->result_layer, 1};
-    }
+    if (f)
+        count += result_barriers(
+            r, f->result_layout_before, VK_IMAGE_LAYOUT_GENERAL,
+            (crv__access){f->result_stages_before, f->result_access_before}, CRV__WRITTEN,
+            &barriers[count]);
     crv__record_image_barriers(r->device, r->commands, barriers, count);
 }
 
@@ -133,7 +146,7 @@ static void record_converts(recorder *r)
         crv__slot_bind_image(r->slot, set, CRV__BIND_HOST_DEPTH, depth->view,
                              depth->layout);
         if (layer == 0 && r->job->has_normals)
-            crv__slot_bind_image(r->slot, set, CRV__BIND_HOST_NORMALS, f->normals.view,
+            crv__slot_bind_image(r->slot, set, CRV__BIND_VECTORS, f->normals.view,
                                  f->normals.layout);
         begin_step(r, layer == 0 ? "depth and normals" : "depth");
         dispatch(r, layer == 0 ? &r->program->convert : &r->program->depth, set);
@@ -146,12 +159,11 @@ static void record_converts(recorder *r)
 static void record_result_layout(const recorder *r)
 {
     const crv_vulkan_frame *f = r->job->frame;
-    VkImageMemoryBarrier2 barrier = crv__image_barrier(
-        f->result, VK_IMAGE_LAYOUT_GENERAL, f->result_layout, CRV__WRITTEN,
-        (crv__access){f->result_stages, f->result_access});
-    barrier.subresourceRange = (VkImageSubresourceRange){
-        VK_IMAGE_ASPECT_COLOR_BIT, f->result_level, 1, f->result_layer, 1};
-    crv__record_image_barriers(r->device, r->commands, &barrier, 1);
+    VkImageMemoryBarrier2 barriers[2];
+    const uint32_t count =
+        result_barriers(r, VK_IMAGE_LAYOUT_GENERAL, f->result_layout, CRV__WRITTEN,
+                        (crv__access){f->result_stages, f->result_access}, barriers);
+    crv__record_image_barriers(r->device, r->commands, barriers, count);
 }
 
 /* ---- from and to a staging buffer ---- */
@@ -186,19 +198,27 @@ static void record_upload(recorder *r)
     end_step(r);
 }
 
+static void download(const recorder *r, int image, size_t offset)
+{
+    const VkBufferImageCopy copy = copy_of(offset, r->estimate, 1);
+    r->device->vk.CmdCopyImageToBuffer(r->commands, image_of(r, image),
+                                       VK_IMAGE_LAYOUT_GENERAL,
+                                       r->job->staging->buffer.buffer, 1, &copy);
+}
+
 static void record_download(recorder *r)
 {
     const crv__staging *staging = r->job->staging;
-    const int outcome =
-        r->program->passes % 2 ? CRV__SCRATCH_FILTERED : CRV__SCRATCH_ACCESSIBILITY;
-    const VkBufferImageCopy copy = copy_of(staging->accessibility, r->estimate, 1);
+    const bool is_filtered = r->program->passes % 2 != 0;
     begin_step(r, "download");
     crv__record_barrier(r->device, r->commands,
                         crv__access_both(CRV__WRITTEN, CRV__COPIED_TO),
                         crv__access_both(CRV__COPIED_FROM, CRV__COPIED_TO));
-    r->device->vk.CmdCopyImageToBuffer(r->commands, image_of(r, outcome),
-                                       VK_IMAGE_LAYOUT_GENERAL, staging->buffer.buffer, 1,
-                                       &copy);
+    download(r, is_filtered ? CRV__SCRATCH_FILTERED : CRV__SCRATCH_ACCESSIBILITY,
+             staging->accessibility);
+    if (r->job->with_bent)
+        download(r, is_filtered ? CRV__SCRATCH_BENT_FILTERED : CRV__SCRATCH_BENT,
+                 staging->bent);
     crv__record_barrier(r->device, r->commands, CRV__COPIED_TO, CRV__HOST_READS);
     end_step(r);
 }
@@ -260,6 +280,9 @@ static void set_accessibility_output(recorder *r, bool is_last, VkDescriptorSet 
     }
     crv__slot_bind_image(r->slot, set, CRV__BIND_OUTPUT, f->result_view,
                          VK_IMAGE_LAYOUT_GENERAL);
+    if (r->program->desc.bent)
+        crv__slot_bind_image(r->slot, set, CRV__BIND_VECTORS_OUTPUT, f->bent_normal_view,
+                             VK_IMAGE_LAYOUT_GENERAL);
     set_output(r, r->result, f->result_x, f->result_y);
 }
 

@@ -6,11 +6,12 @@
 #include "vulkan/barriers.h"
 #include "vulkan/slot.h"
 
-/* Depth layers, normals and accessibility in a buffer, on their way to the device and
- * back. */
+/* Depth layers, normals, accessibility and bent normals in a buffer, on their way to the
+ * device and back. */
 typedef struct crv__staging {
     crv__buffer buffer;
-    size_t normals, accessibility, size; /* where they lie, bytes; depth is first */
+    /* Where they lie, bytes; depth is first. */
+    size_t normals, accessibility, bent, size;
 } crv__staging;
 
 /* A frame to be recorded. Depth and normals come from the host's images, or from a
@@ -21,6 +22,7 @@ typedef struct crv__job {
     const crv__staging *staging;   /* NULL: frame */
     bool has_normals;              /* of the frame */
     bool filter_only;              /* of staging: its accessibility is the estimate */
+    bool with_bent;                /* of staging: bent normals are copied back, too */
     /* Of staging: submits what is recorded, waits, and begins again, when `done` of
      * `total` pieces of the estimate are recorded. What fails ends the recording. */
     crv_status (*submit)(const void *user, int32_t done, int32_t total);

@@ -43,10 +43,17 @@ crv_status crv__scratch_create(crv__scratch *s, const crv__program *p,
     map.name = "map";
     map.layers = edge * edge;
     const crv__image_desc sums = {.name = "sums",
-                                  .format = VK_FORMAT_R32G32_SFLOAT,
+                                  .format = p->desc.bent ? VK_FORMAT_R32G32B32A32_SFLOAT
+                                                         : VK_FORMAT_R32G32_SFLOAT,
                                   .width = r.width,
                                   .height = r.height,
                                   .levels = 1};
+    const crv__image_desc bent = {.name = "bent normals",
+                                  .format = desc->bent_format,
+                                  .width = r.width,
+                                  .height = r.height,
+                                  .levels = 1};
+    const bool has_bent = p->desc.bent, has_bent_sums = has_bent && p->parts > 1;
     const crv__image_desc *const images[CRV__SCRATCH_IMAGES] = {
         [CRV__SCRATCH_DEPTH] = &depth,
         [CRV__SCRATCH_NORMALS] = &normals,
@@ -55,7 +62,11 @@ crv_status crv__scratch_create(crv__scratch *s, const crv__program *p,
         [CRV__SCRATCH_DEINTERLEAVED] = edge > 1 ? &deinterleaved : NULL,
         [CRV__SCRATCH_MAP] = setup->map ? &map : NULL,
         [CRV__SCRATCH_SUMS] = p->parts > 1 ? &sums : NULL,
-        [CRV__SCRATCH_SUMS + 1] = p->parts > 1 ? &sums : NULL};
+        [CRV__SCRATCH_SUMS + 1] = p->parts > 1 ? &sums : NULL,
+        [CRV__SCRATCH_BENT] = has_bent ? &bent : NULL,
+        [CRV__SCRATCH_BENT_FILTERED] = has_bent && p->passes ? &bent : NULL,
+        [CRV__SCRATCH_BENT_SUMS] = has_bent_sums ? &sums : NULL,
+        [CRV__SCRATCH_BENT_SUMS + 1] = has_bent_sums ? &sums : NULL};
     crv_status status = CRV_OK;
     *s = (crv__scratch){.device = p->device};
     for (int i = 0; status == CRV_OK && i < CRV__SCRATCH_IMAGES; i++) {

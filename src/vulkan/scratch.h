@@ -14,7 +14,10 @@ enum {
     CRV__SCRATCH_DEINTERLEAVED, /* depth, only if the program reads it so */
     CRV__SCRATCH_MAP,           /* only if the setup has one; lies as depth does */
     CRV__SCRATCH_SUMS, /* of an estimate's parts, two, only if there are several */
-    CRV__SCRATCH_IMAGES = CRV__SCRATCH_SUMS + 2
+    CRV__SCRATCH_BENT = CRV__SCRATCH_SUMS + 2, /* bent normals, if they are computed */
+    CRV__SCRATCH_BENT_FILTERED,                /* as the filtered accessibility */
+    CRV__SCRATCH_BENT_SUMS,                    /* two, what SUMS have no room for */
+    CRV__SCRATCH_IMAGES = CRV__SCRATCH_BENT_SUMS + 2
 };
 
 typedef struct crv__scratch {
@@ -23,7 +26,7 @@ typedef struct crv__scratch {
 } crv__scratch;
 
 typedef struct crv__scratch_desc {
-    VkFormat normal_format, accessibility_format;
+    VkFormat normal_format, accessibility_format, bent_format;
 } crv__scratch_desc;
 
 /* For frames up to the setup's size. Destroy also after an error. */

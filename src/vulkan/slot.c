@@ -73,9 +73,23 @@ void crv__slot_bind_image(const crv__slot *s, VkDescriptorSet set, uint32_t bind
     d->vk.UpdateDescriptorSets(d->device, 1, &write, 0, NULL);
 }
 
+/* What a step reads and writes: accessibility, and bent normals if they are computed; or
+ * the sums of both. */
+typedef struct pair {
+    VkImageView accessibility, bent;
+} pair;
+
+/* Without bent normals, the same image twice: no shader writes to it as such. */
+static pair pair_of(const crv__slot *s, int accessibility, int bent)
+{
+    const VkImageView first = s->scratch->image[accessibility].view,
+                      second = s->scratch->image[bent].view;
+    return (pair){first, second ? second : first};
+}
+
 /* Every binding gets something, since some drivers look at those that no shader reads. */
 static void bind_all(crv__slot *s, const numbers_layout *l, VkDescriptorSet set,
-                     VkImageView input, VkImageView output)
+                     pair input, pair output)
 {
     const crv__device *d = s->program->device;
     VkDescriptorBufferInfo buffers[CRV__BIND_DEPTH];
@@ -96,14 +110,15 @@ static void bind_all(crv__slot *s, const numbers_layout *l, VkDescriptorSet set,
     const VkImageView normals = image[CRV__SCRATCH_NORMALS].view,
                       depth = image[CRV__SCRATCH_DEPTH].view,
                       map = image[CRV__SCRATCH_MAP].view;
-    const VkImageView views[CRV__BINDINGS] = {[CRV__BIND_DEPTH] = depth,
-                                              [CRV__BIND_NORMALS] = normals,
-                                              [CRV__BIND_INPUT] = input,
-                                              [CRV__BIND_OUTPUT] = output,
-                                              [CRV__BIND_HOST_DEPTH] = normals,
-                                              [CRV__BIND_HOST_NORMALS] = normals,
-                                              [CRV__BIND_NORMALS_OUTPUT] = normals,
-                                              [CRV__BIND_MAP] = map ? map : depth};
+    const VkImageView views[CRV__BINDINGS] = {
+        [CRV__BIND_DEPTH] = depth,
+        [CRV__BIND_NORMALS] = normals,
+        [CRV__BIND_INPUT] = input.accessibility,
+        [CRV__BIND_OUTPUT] = output.accessibility,
+        [CRV__BIND_HOST_DEPTH] = normals,
+        [CRV__BIND_VECTORS] = input.bent ? input.bent : normals,
+        [CRV__BIND_VECTORS_OUTPUT] = output.bent ? output.bent : normals,
+        [CRV__BIND_MAP] = map ? map : depth};
     for (uint32_t i = CRV__BIND_DEPTH; i < CRV__BINDINGS; i++)
         crv__slot_bind_image(s, set, i, views[i], VK_IMAGE_LAYOUT_GENERAL);
 }
@@ -117,13 +132,12 @@ static VkImageView depth_of_estimate(const crv__slot *s)
 }
 
 /* The sets of an estimate: one, or two that hand sums to and fro and one that ends. */
-static void bind_estimate(crv__slot *s, const numbers_layout *l, VkImageView first,
-                          VkImageView second)
+static void bind_estimate(crv__slot *s, const numbers_layout *l, pair first, pair second)
 {
     const int32_t parts = s->program->parts;
     const VkImageView depth = depth_of_estimate(s);
-    const VkImageView sums[2] = {s->scratch->image[CRV__SCRATCH_SUMS].view,
-                                 s->scratch->image[CRV__SCRATCH_SUMS + 1].view};
+    const pair sums[2] = {pair_of(s, CRV__SCRATCH_SUMS, CRV__SCRATCH_BENT_SUMS),
+                          pair_of(s, CRV__SCRATCH_SUMS + 1, CRV__SCRATCH_BENT_SUMS + 1)};
     bind_all(s, l, s->estimate_set, parts > 1 ? sums[parts % 2] : second, first);
     crv__slot_bind_image(s, s->estimate_set, CRV__BIND_DEPTH, depth,
                          VK_IMAGE_LAYOUT_GENERAL);
@@ -138,26 +152,29 @@ static void bind_sets(crv__slot *s, const crv__setup *setup)
 {
     const crv__image *image = s->scratch->image, *depth = &image[CRV__SCRATCH_DEPTH];
     const numbers_layout l = layout_of(setup);
-    const VkImageView first = image[CRV__SCRATCH_ACCESSIBILITY].view;
-    const VkImageView filtered = image[CRV__SCRATCH_FILTERED].view;
-    const VkImageView second = filtered ? filtered : first;
+    const pair first = pair_of(s, CRV__SCRATCH_ACCESSIBILITY, CRV__SCRATCH_BENT);
+    const pair filtered = pair_of(s, CRV__SCRATCH_FILTERED, CRV__SCRATCH_BENT_FILTERED);
+    const pair second = filtered.accessibility ? filtered : first;
     for (int32_t i = 0; i < depth->desc.layers; i++) {
         if (s->depth_set[i])
-            bind_all(s, &l, s->depth_set[i], first, depth->part[i][0]);
+            bind_all(s, &l, s->depth_set[i], first,
+                     (pair){depth->part[i][0], VK_NULL_HANDLE});
         for (int32_t m = 1; m < depth->desc.levels; m++)
-            bind_all(s, &l, s->level_set[i][m], first, depth->part[i][m]);
+            bind_all(s, &l, s->level_set[i][m], first,
+                     (pair){depth->part[i][m], VK_NULL_HANDLE});
     }
     bind_estimate(s, &l, first, second);
     for (int32_t i = 0; i < s->program->passes; i++)
         bind_all(s, &l, s->filter_set[i], i % 2 ? second : first, i % 2 ? first : second);
     if (s->map_set) {
-        bind_all(s, &l, s->map_set, first, image[CRV__SCRATCH_MAP].view);
+        bind_all(s, &l, s->map_set, first,
+                 (pair){image[CRV__SCRATCH_MAP].view, VK_NULL_HANDLE});
         crv__slot_bind_image(s, s->map_set, CRV__BIND_DEPTH, depth_of_estimate(s),
                              VK_IMAGE_LAYOUT_GENERAL);
     }
     if (s->deinterleave_set)
         bind_all(s, &l, s->deinterleave_set, first,
-                 image[CRV__SCRATCH_DEINTERLEAVED].view);
+                 (pair){image[CRV__SCRATCH_DEINTERLEAVED].view, VK_NULL_HANDLE});
 }
 
 enum {

@@ -68,13 +68,16 @@ float filtered(int index, int row)
     const ivec2 axis = axis_of_pass();
     const Centre centre = centre_at(index, row, axis);
     float sum = 0, weights = 0;
+    vec3 bent = vec3(0);
     for (int k = -REACH; k <= REACH; k++) {
         const Tap tap = tap_at(centre, k * axis);
         const float weight = GAUSS[abs(k)] * (1 - tap.deviation) * tap.likeness;
         const bool counts = all(bvec2(tap.likeness > 0, tap.deviation < 1));
         sum += counts ? weight * tap.value : 0;
         weights += counts ? weight : 0;
+        add_bent(bent, tap.index, counts ? weight : 0);
     }
+    filtered_bent = bent / weights;
     return sum / weights; /* the centre weighs 1 */
 }
 #endif

@@ -17,6 +17,7 @@
 /* crv_thickness */
 const int THICKNESS_WIDTH = 0, THICKNESS_RUN = 1, THICKNESS_LAYERS = 3;
 const float SECTOR_COUNT = 32;
+const float GROUP_SECTORS = 4;
 const float FALLOFF_END = 0.99999994; /* just below 1 */
 
 /* A slice so far. */
@@ -26,6 +27,7 @@ struct Sectors {
     float start;          /* x0 */
     float last_x, last_z; /* of the sample before */
     bool is_new;          /* that one was background */
+    vec4 near, far;       /* W_g of groups 0 to 3 and 4 to 7 */
 };
 
 /* A surface seen at a texel. */
@@ -69,8 +71,13 @@ void add_body(inout Sectors to, SliceSite site, Slice s, SliceTexel texel, Body 
     const float new_count = float(bitCount(new_bits));
     const float r = min(sqrt(b.x * b.x + b.z * b.z), R);
     const float middle = r - 0.7 * (r - b.x) * new_count / float(bitCount(bits));
-    to.occlusion += falloff_within(min(middle * params.inv_radius, FALLOFF_END))
-                    * new_count / SECTOR_COUNT;
+    const float W = falloff_within(min(middle * params.inv_radius, FALLOFF_END));
+    to.occlusion += W * new_count / SECTOR_COUNT;
+    if (BENT_NORMAL != 0) {
+        const uvec4 shift = uvec4(0, 4, 8, 12);
+        to.near += W * vec4(bitCount(uvec4(new_bits) >> shift & 0xfu));
+        to.far += W * vec4(bitCount(uvec4(new_bits) >> shift + 16 & 0xfu));
+    }
 }
 
 /* The first surfaces at the samples begin and continue runs. */
@@ -130,15 +137,56 @@ void add_texel(inout Sectors to, SliceSite site, Slice s, SliceTexel t)
     }
 }
 
-float blocked_share(SliceSite site, Slice s)
+/* Sine and cosine of theta_g of four groups; u, v: u_g and v_g. */
+void group_angles(Slice s, vec4 u, vec4 v, out vec4 sine, out vec4 cosine)
 {
-    Sectors found = Sectors(0u, 0, 0, 0, 0, false);
+    if (params.weighting == SLICE_WEIGHTING_UNIFORM) {
+        cosine = 1 - u * (1 - s.cos_tangent);
+        sine = sqrt(max(vec4(0), 1 - cosine * cosine));
+        return;
+    }
+    const float tangent = slice_segment(s.cos_tangent, s.sin_tangent)
+                          + s.cos_tangent * s.sin_tangent;
+    const float t = 0.63661977 * tangent - 1;
+    const vec4 theta =
+        0.5 * tangent * (1 + v * (1 - t * (0.13 + 0.1 * t) * (1 - v * v)));
+    sine = sin(theta);
+    cosine = cos(theta);
+}
+
+/* Adds four groups. */
+void add_groups(inout SliceVectors sum, Slice s, vec4 blocked, vec4 u, vec4 v)
+{
+    vec4 sine, cosine;
+    group_angles(s, u, v, sine, cosine);
+    const vec4 share = s.total / SECTOR_COUNT * blocked,
+               rest = s.total / SECTOR_COUNT * GROUP_SECTORS - share;
+    sum.open += vec2(dot(rest, sine), dot(rest, cosine));
+    sum.blocked += vec2(dot(share, sine), dot(share, cosine));
+}
+
+SliceVectors vectors_of(Sectors found, Slice s)
+{
+    const vec4 u = vec4(0.0625, 0.1875, 0.3125, 0.4375),
+               v = vec4(0.69591, 0.43203, 0.2455, 0.08);
+    SliceVectors sum = SliceVectors(vec2(0), vec2(0));
+    if (BENT_NORMAL != 0) {
+        add_groups(sum, s, found.near, u, -v);
+        add_groups(sum, s, found.far, u + 0.5, v.wzyx);
+    }
+    return sum;
+}
+
+float blocked_share(SliceSite site, Slice s, out SliceVectors vectors)
+{
+    Sectors found = Sectors(0u, 0, 0, 0, 0, false, vec4(0), vec4(0));
     for (int i = 0; i < step_count(); i++) {
         SliceTexel texel;
         if (!slice_texel(site, s, i, texel))
             break;
         add_texel(found, site, s, texel);
     }
+    vectors = vectors_of(found, s);
     return found.occlusion;
 }
 

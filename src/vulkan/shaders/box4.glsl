@@ -31,14 +31,17 @@ float filtered(int index, int row)
 {
     const Centre centre = centre_at(index, row, ivec2(1));
     float sum = 0, count = 0;
+    vec3 bent = vec3(0);
     for (int dy = FIRST; dy <= LAST; dy++) {
         for (int dx = FIRST; dx <= LAST; dx++) {
             const Tap tap = tap_at(centre, ivec2(dx, dy));
             const bool counts = all(bvec2(tap.likeness > 0, tap.deviation <= 1));
             sum += counts ? tap.value : 0;
             count += counts ? 1 : 0;
+            add_bent(bent, tap.index, counts ? 1 : 0);
         }
     }
+    filtered_bent = bent / count;
     return sum / count; /* the centre is always in */
 }
 

@@ -28,6 +28,9 @@ layout(constant_id = 12) const int LAYERS_SOLID = -1;
 layout(constant_id = 14) const int SPACING = -1;
 layout(constant_id = 17) const int BIASED = -1; /* 0: bias_deg is 0 */
 layout(constant_id = 18) const int FILTER_PASS = -1;
+/* 1: bent normals are computed, too; and how they are left: bent.glsl. */
+layout(constant_id = 21) const int BENT_NORMAL = 0;
+layout(constant_id = 22) const int BENT_FORM = 0;
 
 /* 1, or the edge of the noise tile: see pixel_of_invocation(). */
 layout(constant_id = 13) const int PIXEL_STRIDE = 1;
@@ -61,8 +64,9 @@ layout(set = 0, binding = 7) uniform writeonly image2DArray output_image;
 layout(set = 0, binding = 7) uniform writeonly image2D output_image;
 #endif
 layout(set = 0, binding = 8) uniform sampler2D host_depth; /* of one layer */
-layout(set = 0, binding = 9) uniform sampler2D host_normals;
-layout(set = 0, binding = 10) uniform writeonly image2D normal_output;
+/* The host's normals; bent normals to be filtered; sums of bent normals. */
+layout(set = 0, binding = 9) uniform sampler2D vector_image;
+layout(set = 0, binding = 10) uniform writeonly image2D vector_output;
 layout(set = 0, binding = 11) uniform sampler2DArray map_image; /* lies as depth does */
 
 layout(push_constant) uniform Push
@@ -269,6 +273,11 @@ void write_output(ivec2 at, vec4 value)
 #else
     imageStore(output_image, at + ivec2(push.store_x, push.store_y), value);
 #endif
+}
+
+void write_vectors(ivec2 at, vec4 value)
+{
+    imageStore(vector_output, at + ivec2(push.store_x, push.store_y), value);
 }
 
 #endif

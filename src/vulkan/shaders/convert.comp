@@ -18,6 +18,6 @@ void main()
     const float d = depth_in_tile(at);
     const vec3 n = is_surface(d) ? final_normal(at, d) : vec3(0);
     write_output(at, vec4(d));
-    imageStore(normal_output, at,
-               NORMALS_OCTAHEDRAL != 0 ? vec4(octahedral_encoded(n), 0, 0) : vec4(n, 0));
+    write_vectors(at, NORMALS_OCTAHEDRAL != 0 ? vec4(octahedral_encoded(n), 0, 0)
+                                              : vec4(n, 0));
 }

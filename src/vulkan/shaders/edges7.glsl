@@ -69,9 +69,9 @@ void take_edges(ivec2 size)
 
 #define PREPARE_TILE(size) take_edges(size)
 
-/* What one side adds to the sum of values and to that of weights; `edge`: from the centre
- * to its first tap. */
-vec2 side_of(int index, int stride, float edge)
+/* What one side adds to the sum of values and to that of weights, and to that of bent
+ * normals; `edge`: from the centre to its first tap. */
+vec2 side_of(int index, int stride, float edge, inout vec3 bent)
 {
     const int before = stride < 0 ? stride : 0; /* the edge's earlier texel has it */
     vec2 sums = vec2(0);
@@ -83,6 +83,7 @@ vec2 side_of(int index, int stride, float edge)
         product = is_nan(value) ? 0 : product;
         const float weight = float(RADIUS + 1 - k) * product;
         sums += is_nan(value) ? vec2(0) : weight * vec2(value, 1);
+        add_bent(bent, index + k * stride, weight);
     }
     return sums;
 }
@@ -92,9 +93,12 @@ float filtered(int index, int row)
     const int stride = axis_of_pass().x == 1 ? 1 : row;
     const float before = tile_edge[index - stride], after = tile_edge[index];
     const float least = LONELY * max(0, 1 - before - after);
+    vec3 bent = vec3(0);
+    add_bent(bent, index, float(RADIUS + 1));
     const vec2 sums = float(RADIUS + 1) * vec2(tile_value[index], 1)
-                      + side_of(index, -stride, max(before, least))
-                      + side_of(index, stride, max(after, least));
+                      + side_of(index, -stride, max(before, least), bent)
+                      + side_of(index, stride, max(after, least), bent);
+    filtered_bent = bent / sums.y;
     return sums.x / sums.y;
 }
 

@@ -4,6 +4,8 @@
 #ifndef ESTIMATE_GLSL
 #define ESTIMATE_GLSL
 
+#include "bent.glsl"
+#include "bent_output.glsl"
 #include "part.glsl"
 
 /* max(0, 1 - intensity (1 - A))^contrast, at most 1 */
@@ -21,8 +23,11 @@ void main()
         return;
     const float d = depth_at(at, 0);
     const float a = is_surface(d) ? accessibility(at, d) : 1;
-    if (is_last_part())
-        write_output(at, vec4(finished(a)));
+    if (!is_last_part())
+        return;
+    write_output(at, vec4(finished(a)));
+    if (BENT_NORMAL != 0)
+        write_bent_normal(at, is_surface(d) ? bent_normal : vec3(0));
 }
 
 #endif

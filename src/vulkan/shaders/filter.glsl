@@ -4,6 +4,7 @@
 #ifndef FILTER_GLSL
 #define FILTER_GLSL
 
+#include "bent_output.glsl"
 #include "tap.glsl"
 
 float result_of(float depth, float own, int index, int row)
@@ -29,8 +30,14 @@ void main()
     if (!in_output(at))
         return;
     const int index = (place.y + before.y) * row + place.x + before.x;
-    write_output(at,
-                 vec4(result_of(tile_surface[index].w, tile_value[index], index, row)));
+    const vec4 surface = tile_surface[index];
+    write_output(at, vec4(result_of(surface.w, tile_value[index], index, row)));
+    if (BENT_NORMAL == 0)
+        return;
+    if (is_surface(surface.w))
+        write_bent_mean(at, filtered_bent, surface.xyz);
+    else
+        write_bent_normal(at, vec3(0));
 }
 
 #endif

@@ -55,6 +55,7 @@ float filtered(int index, int row)
 {
     const Centre centre = centre_at(index, row, ivec2(1));
     float sum = 0, weights = 0;
+    vec3 bent = vec3(0);
     for (int dy = -REACH; dy <= REACH; dy++) {
         for (int dx = -REACH; dx <= REACH; dx++) {
             const Tap tap = tap_at(centre, ivec2(dx, dy));
@@ -63,8 +64,10 @@ float filtered(int index, int row)
                                  / (tap.deviation + 0.125);
             sum += tap.likeness > 0 ? weight * tap.value : 0;
             weights += tap.likeness > 0 ? weight : 0;
+            add_bent(bent, tap.index, tap.likeness > 0 ? weight : 0);
         }
     }
+    filtered_bent = bent / weights;
     return sum / weights; /* the centre weighs 36 * 8 */
 }
 #endif

@@ -21,6 +21,8 @@ struct Horizon {
     float open; /* u of the horizon: the share above it */
     float occlusion;
     float weight; /* W of the horizon's own sample */
+    vec2 vector;  /* G of the horizon */
+    vec2 blocked; /* K */
 };
 
 void add_sample(inout Horizon h, SliceSite site, Slice s, vec2 point)
@@ -34,11 +36,19 @@ void add_sample(inout Horizon h, SliceSite site, Slice s, vec2 point)
     h.cosine = cosine;
     h.open = min(h.open, open);
     h.weight = W;
+    if (BENT_NORMAL != 0) {
+        const vec2 vector = slice_vector(site.a, s.b, cosine, x / r);
+        h.blocked += (h.vector - vector) * W;
+        h.vector = vector;
+    }
 }
 
-float blocked_share(SliceSite site, Slice s)
+float blocked_share(SliceSite site, Slice s, out SliceVectors vectors)
 {
-    Horizon h = Horizon(s.cos_tangent, 1, 0, 0);
+    vec2 all = vec2(0);
+    if (BENT_NORMAL != 0)
+        all = slice_vector(site.a, s.b, s.cos_tangent, s.sin_tangent);
+    Horizon h = Horizon(s.cos_tangent, 1, 0, 0, all, vec2(0));
     for (int i = 0; i < step_count(); i++) {
         SliceTexel texel;
         if (!slice_texel(site, s, i, texel))
@@ -49,6 +59,9 @@ float blocked_share(SliceSite site, Slice s)
                 add_sample(h, site, s, slice_point(site, s, texel, d));
         }
     }
+    const vec2 K = attenuation_kind() == ATTENUATION_SLAB ? h.blocked
+                                                          : (all - h.vector) * h.weight;
+    vectors = SliceVectors(all - K, K);
     return attenuation_kind() == ATTENUATION_SLAB ? h.occlusion
                                                   : (1 - h.open) * h.weight;
 }

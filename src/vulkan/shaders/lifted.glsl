@@ -14,6 +14,10 @@
 
 #define INFINITY uintBitsToFloat(0x7f800000u)
 
+#ifndef BENT_NORMAL
+#define BENT_NORMAL 0 /* 1: bent_normal of bent.glsl is computed, too */
+#endif
+
 const int BIASED = -1; /* params.sin_bias and cos_bias are read */
 
 float depth_at(ivec2 at, int layer); /* the shader's own; layer is 0 */
@@ -55,6 +59,19 @@ vec2 sums_before(ivec2 at)
 }
 
 void keep_sums(ivec2 at, vec2 sums)
+{
+}
+
+struct BentSums {
+    vec3 open, blocked;
+};
+
+BentSums bent_sums_before(ivec2 at)
+{
+    return BentSums(vec3(0), vec3(0));
+}
+
+void keep_bent_sums(ivec2 at, vec2 sums, BentSums bent)
 {
 }
 

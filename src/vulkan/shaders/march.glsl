@@ -4,6 +4,7 @@
 #ifndef MARCH_GLSL
 #define MARCH_GLSL
 
+#include "bent.glsl"
 #include "falloff.glsl"
 #include "frame.glsl"
 

@@ -126,7 +126,7 @@ vec3 final_normal(ivec2 at, float d)
     vec3 n = vec3(0);
     if (push.normal_encoding != NORMAL_NONE)
         n = normalized(decoded_normal(
-            texelFetch(host_normals, at + ivec2(push.host_x, push.host_y), 0)));
+            texelFetch(vector_image, at + ivec2(push.host_x, push.host_y), 0)));
     if (n == vec3(0))
         n = normal_from_depth(at, d);
     return facing_camera(at, d, n);

@@ -17,15 +17,23 @@ float accessibility(ivec2 at, float d)
     tangents_of(n, tangent, bitangent);
     const int rays = max(normal_ray_count(), 1);
     float occlusion = sums_before(at).x;
+    BentSums bent = bent_sums_before(at);
     for (int i = part_begin(); i < part_end(direction_count()); i++) {
         const vec3 t = slice_tangent(noise, i, tangent, bitangent);
         for (int k = 0; k < rays; k++) {
             precise float z2 = (float(k) + stratum_at(noise, i)) / float(rays);
-            occlusion += marched(origin, raised(n, t, z2), noise.beta);
+            const vec3 direction = raised(n, t, z2);
+            const float blocked = marched(origin, direction, noise.beta);
+            occlusion += blocked;
+            if (BENT_NORMAL != 0)
+                bent_add(bent, direction, 1, blocked);
         }
     }
-    keep_sums(at, vec2(occlusion, 0));
-    return 1 - occlusion / float(direction_count() * rays);
+    keep_bent_sums(at, vec2(occlusion, 0), bent);
+    const float total = float(direction_count() * rays), a = 1 - occlusion / total;
+    if (BENT_NORMAL != 0)
+        bent_normal = bent_of(bent, n, a, BENT_COSINE * total);
+    return a;
 }
 
 #endif

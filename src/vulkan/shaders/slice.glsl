@@ -6,6 +6,7 @@
 #ifndef SLICE_GLSL
 #define SLICE_GLSL
 
+#include "bent.glsl"
 #include "falloff.glsl"
 #include "frame.glsl"
 
@@ -28,7 +29,7 @@ struct SliceSite {
 struct Slice {
     vec3 T;
     float b, weight;
-    float cos_tangent;
+    float cos_tangent, sin_tangent;
     float total;   /* Ft */
     float inverse; /* 1 / Ft */
     vec2 way;      /* unit vector in the image, to the right and down */
@@ -60,14 +61,32 @@ SliceSite slice_site(ivec2 at, float d)
     return s;
 }
 
+/* theta - sin cos of the angle of these cosine and sine. */
+float slice_segment(float cosine, float sine)
+{
+    const float Q =
+        1.57020562 + sine * (0.02568289 + sine * (0.60547927 - sine * 0.20501906));
+    return 1.57079633 - cosine * Q;
+}
+
 /* F at the angle of these cosine and sine. */
 float slice_measure(float a, float b, float cosine, float sine)
 {
     if (params.weighting == SLICE_WEIGHTING_UNIFORM)
         return 1 - cosine;
-    const float Q =
-        1.57020562 + sine * (0.02568289 + sine * (0.60547927 - sine * 0.20501906));
-    return 0.5 * (a * sine * sine + b * (1.57079633 - cosine * Q));
+    return 0.5 * (a * sine * sine + b * slice_segment(cosine, sine));
+}
+
+/* G at this angle: x along T, y along V. */
+vec2 slice_vector(float a, float b, float cosine, float sine)
+{
+    if (params.weighting == SLICE_WEIGHTING_UNIFORM)
+        return 0.5 * vec2(slice_segment(cosine, sine), sine * sine);
+    const float sine3 = sine * sine * sine, rest = 1 - cosine;
+    /* 2 - 3 c + c^3 and 1 - c^3, without the difference of what is nearly alike. */
+    const vec2 along =
+        vec2(rest * rest * (2 + cosine), rest * (1 + cosine + cosine * cosine));
+    return (vec2(a, b) * sine3 + vec2(b, a) * along) * (1.0 / 3);
 }
 
 /* u = F/Ft, in [0, 1]. */
@@ -88,7 +107,8 @@ bool slice_at(SliceSite site, crv__noise_texel noise, int k, out Slice s)
     s.weight = 1 / squared;
     const float inverse = 1 / sqrt(site.a * site.a + s.b * s.b);
     s.cos_tangent = -s.b * inverse;
-    s.total = slice_measure(site.a, s.b, s.cos_tangent, site.a * inverse);
+    s.sin_tangent = site.a * inverse;
+    s.total = slice_measure(site.a, s.b, s.cos_tangent, s.sin_tangent);
     s.inverse = 1 / s.total;
     precise vec2 px = vec2(D.x * params.fx, -D.y * params.fy);
     precise float squared_px = px.x * px.x + px.y * px.y;
@@ -193,8 +213,19 @@ vec2 slice_point(SliceSite site, Slice s, SliceTexel t, float depth)
     return vec2(x, (dot(v, site.n) - s.b * x) / site.a);
 }
 
-/* The blocked share of a slice's measure: the method's own. */
-float blocked_share(SliceSite site, Slice s);
+/* O and K of a slice: x along T, y along V. */
+struct SliceVectors {
+    vec2 open, blocked;
+};
+
+/* The blocked share of a slice's measure, and vectors if BENT_NORMAL is 1: the method's
+ * own. */
+float blocked_share(SliceSite site, Slice s, out SliceVectors vectors);
+
+vec3 in_space(SliceSite site, Slice s, vec2 vector)
+{
+    return s.weight * (vector.x * s.T + vector.y * site.V);
+}
 
 /* A of a pixel: the open share of all slices. */
 float accessibility(ivec2 at, float d)
@@ -202,14 +233,25 @@ float accessibility(ivec2 at, float d)
     const crv__noise_texel noise = noise_at(at);
     const SliceSite site = slice_site(at, d);
     vec2 sums = sums_before(at); /* blocked, total */
+    BentSums bent = bent_sums_before(at);
     for (int k = part_begin(); k < part_end(direction_count()); k++) {
         Slice s;
         if (!slice_at(site, noise, k, s))
             continue;
-        sums += s.weight * s.total * vec2(blocked_share(site, s), 1);
+        SliceVectors vectors;
+        sums += s.weight * s.total * vec2(blocked_share(site, s, vectors), 1);
+        if (BENT_NORMAL != 0) {
+            bent.open += in_space(site, s, vectors.open);
+            bent.blocked += in_space(site, s, vectors.blocked);
+        }
     }
-    keep_sums(at, sums);
-    return sums.y > 0 ? 1 - sums.x / sums.y : 1;
+    keep_bent_sums(at, sums, bent);
+    const float a = sums.y > 0 ? 1 - sums.x / sums.y : 1;
+    const float h =
+        params.weighting == SLICE_WEIGHTING_UNIFORM ? BENT_UNIFORM : BENT_COSINE;
+    if (BENT_NORMAL != 0)
+        bent_normal = bent_of(bent, site.n, a, h * sums.y);
+    return a;
 }
 
 #endif

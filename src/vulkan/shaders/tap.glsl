@@ -13,6 +13,11 @@
 
 shared vec4 tile_surface[TILE_TEXELS]; /* normal, depth */
 shared float tile_value[TILE_TEXELS];  /* accessibility; NaN: no tap */
+/* Bent normals; a single one if there are none. */
+shared vec3 tile_bent[(int(TILE_TEXELS) - 1) * BENT_NORMAL + 1];
+
+/* The mean of the window's bent normals, if BENT_NORMAL is 1: filtered() sets it. */
+vec3 filtered_bent = vec3(0);
 
 /* Takes the texel `at` into the tile; what lies outside the buffers as background. All is
  * fetched first, at the nearest texel, and left out if it does not count. */
@@ -28,6 +33,15 @@ void take_texel(int index, ivec2 at)
     tile_surface[index] = vec4(normal, is_there ? depth : INFINITY);
     tile_value[index] =
         all(bvec2(is_there, in_input(at))) ? value : uintBitsToFloat(0x7fc00000u);
+    if (BENT_NORMAL != 0)
+        tile_bent[index] = texelFetch(vector_image, input_texel(at), 0).xyz;
+}
+
+/* Adds the bent normal of a tap to the sum of them. */
+void add_bent(inout vec3 sum, int index, float weight)
+{
+    if (BENT_NORMAL != 0)
+        sum += weight * tile_bent[index];
 }
 
 /* Fills the tile with the rectangle of `size` texels from `first` on, row by row. */
@@ -72,6 +86,7 @@ Centre centre_at(int index, int row, ivec2 axes)
 }
 
 struct Tap {
+    int index; /* in the tile */
     float value;
     float deviation; /* of its depth from what the centre leads one to expect, in units of
                         filter_depth */
@@ -92,7 +107,7 @@ Tap tap_at(Centre c, ivec2 way)
     const float turned = 1 - dot(surface.xyz, c.normal);
     const float likeness = min(1, 1 - turned * params.filter_normal);
     const bool is_tap = all(bvec2(!is_nan(value), is_surface(deviation)));
-    return Tap(value, deviation, is_tap ? likeness : 0);
+    return Tap(index, value, deviation, is_tap ? likeness : 0);
 }
 
 #endif
