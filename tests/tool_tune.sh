@@ -62,7 +62,7 @@ good $mesh --check-orbit 0 --truth-weighting cosine --truth-falloff none
 grep -q '^other' stdout.txt && fail "another view that nobody wanted"
 grep -q 'truth: crevice reference .*--weighting cosine --falloff none' stderr.txt ||
     fail "the truth is not told"
-good $mesh --check-eye 3,2,6 --fit radius,contrast
+good $mesh --check-eye 3,2,6 --fit radius,intensity
 grep -q '^other' stdout.txt || fail "no view from --check-eye"
 
 # What cannot be fitted is one line.

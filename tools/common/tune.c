@@ -21,6 +21,9 @@ enum { MEMORY = 1024 };
 /* With an intensity below 1 nothing is cut off at black that a curve would need. */
 #define RUN_INTENSITY 0.25
 
+/* Intensities and contrasts that are of use, and one over it. */
+#define STRENGTH_MAX 16.0
+
 /* The share of the budget after which all numbers are searched together. */
 #define FIRST_SHARE 0.6
 
@@ -30,8 +33,8 @@ static const struct word {
 } words[] = {{"radius", TUNE_RADIUS},
              {"thickness", TUNE_THICKNESS},
              {"falloff", TUNE_FALLOFF},
-             {"intensity", TUNE_INTENSITY},
-             {"contrast", TUNE_CONTRAST}};
+             {"contrast", TUNE_CONTRAST},
+             {"intensity", TUNE_INTENSITY}};
 enum { WORDS = sizeof words / sizeof words[0] };
 
 /* What a search must leave at most of the error for another to be worth it. */
@@ -144,13 +147,13 @@ static double within(double value, double largest)
 static double log_intensity(const fitter *f, const search_point *at)
 {
     const double contrast = f->fits & TUNE_CONTRAST ? at->number[CONTRAST] : 0.0;
-    return within(at->number[STRENGTH] - contrast, log(METRICS_INTENSITY_MAX));
+    return within(at->number[STRENGTH] - contrast, log(STRENGTH_MAX));
 }
 
 static void set_intensity(const fitter *f, search_point *at, double intensity)
 {
     const double contrast = f->fits & TUNE_CONTRAST ? at->number[CONTRAST] : 0.0;
-    at->number[STRENGTH] = within(log(intensity), log(METRICS_INTENSITY_MAX)) + contrast;
+    at->number[STRENGTH] = within(log(intensity), log(STRENGTH_MAX)) + contrast;
 }
 
 static crv_options options_of(fitter *f, const search_point *at)
@@ -215,7 +218,7 @@ static double fit_curve(fitter *f, const crv_options *run, search_point *at)
     if (!metrics_fit_near(f->result, f->truth, (size_t)f->count, what, &curve))
         return INFINITY;
     if (contrast)
-        at->number[CONTRAST] = within(log(curve.power), log(METRICS_POWER_MAX));
+        at->number[CONTRAST] = within(log(curve.power), log(STRENGTH_MAX));
     if (intensity)
         set_intensity(f, at, curve.intensity * (double)run->intensity);
     return curve.rmse;
@@ -332,8 +335,7 @@ static void begin_stage(fitter *f, double share, double start)
     f->end = start + share * q->seconds;
 }
 
-/* Radii of 1/64 to 64 times the start's; thicknesses, intensities and contrasts that are
- * of use. */
+/* Radii of 1/64 to 64 times the start's; the rest as far as it is of use. */
 static search make_search(fitter *f)
 {
     const crv_option *radius = crv_option_find("radius");
@@ -346,8 +348,8 @@ static search make_search(fitter *f)
         .low = {[RADIUS] = log(fmax(start / 64.0, radius->min)), [THICKNESS] = log(0.01)},
         .high = {[RADIUS] = log(fmin(start * 64.0, radius->max)), [THICKNESS] = log(16)},
     };
-    s.high[CONTRAST] = log(METRICS_POWER_MAX);
-    s.high[STRENGTH] = s.high[CONTRAST] + log(METRICS_INTENSITY_MAX);
+    s.high[CONTRAST] = log(STRENGTH_MAX);
+    s.high[STRENGTH] = 2.0 * s.high[CONTRAST];
     s.low[STRENGTH] = -s.high[STRENGTH];
     s.low[CONTRAST] = -s.high[CONTRAST];
     return s;

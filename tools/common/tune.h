@@ -16,8 +16,10 @@ enum {
     TUNE_RADIUS = 1,
     TUNE_THICKNESS = 2, /* and thickness_rule, if the method has it */
     TUNE_FALLOFF = 4,
-    TUNE_INTENSITY = 8,
-    TUNE_CONTRAST = 16,
+    TUNE_CONTRAST = 8,
+    /* Beside contrast it gains next to nothing, and less on views that are not fitted. */
+    TUNE_INTENSITY = 16,
+    TUNE_USUAL = 15,
     TUNE_ALL = 31
 };
 

@@ -40,9 +40,8 @@ static const arg fit_rows[] = {
     {.name = "--fit",
      .value = "WORDS",
      ARG_INTO(ARG_TEXT, tune_settings, fit),
-     .computed = "all that the method reads",
-     .help = "what may change, with commas in between: radius, thickness, falloff, "
-             "intensity, contrast"},
+     .computed = "radius,thickness,falloff,contrast, as far as the method reads them",
+     .help = "what may change, with commas in between; intensity can be named, too"},
     {.name = "--time",
      .value = "S",
      ARG_RANGE(0.1, 1e6),
@@ -175,7 +174,7 @@ static int check(const tune_settings *s, unsigned *fits, report *r)
 {
     const crv_method *method = s->view.common.options.method;
     const bool is_frame = pass_is_frame(s->view.model);
-    const unsigned wanted = s->fit ? tune_parse(s->fit) : TUNE_ALL;
+    const unsigned wanted = s->fit ? tune_parse(s->fit) : TUNE_USUAL;
     const char *mistake = is_frame ? frame_mistake(s) : mesh_mistake(s);
     char words[64];
     if (!mistake && estimate_is_of_relief(&s->view.common.options))
