@@ -80,7 +80,7 @@ bad 2 '--time: "0" is not valid' tune frame.exr --truth truth.exr --time 0
 bad 2 '--evaluations: "0" is not valid' tune frame.exr --truth truth.exr --evaluations 0
 bad 2 '--fit: "radius,depth" is not of hbao' tune frame.exr --fit radius,depth
 bad 2 '--fit: "thickness" is not of' tune frame.exr --method vo --fit thickness
-bad 2 'are for meshes' tune frame.exr --eye 1,2,3
+bad 2 "are for meshes" tune frame.exr --eye 1,2,3
 bad 2 'is for frames' tune builtin:courtyard --truth truth.exr
 bad 2 'contradicts --check-orbit' tune builtin:corner --check-eye 1,2,3 --check-orbit 9
 bad 1 'nothing in view is occluded' tune builtin:plane --size 32x18 --radius 0.01

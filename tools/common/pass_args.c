@@ -4,8 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-static const double degree = 3.14159265358979323846 / 180.0;
-
 const char *const pass_spaces[] = {"find", "view", "world", NULL};
 
 const char *pass_encoding(int32_t index)
@@ -108,23 +106,4 @@ bool pass_is_frame(const char *input)
         if (strcmp(dot, extensions[i]) == 0)
             return true;
     return false;
-}
-
-int pass_view_request(const pass_settings *p, const arg_number *vfov_deg,
-                      const arg_number *ortho, io_passes_request *out, report *r)
-{
-    const char *mistake = pass_mistake(p, ortho->given);
-    if (mistake) {
-        report_error(r, "%s", mistake);
-        return EXIT_USAGE;
-    }
-    *out = pass_request(p);
-    out->keep_overscan = true; /* as `crevice ao` does */
-    out->remedies.camera = "give its vertical field of view with --vfov DEGREES, or "
-                           "--ortho HEIGHT";
-    if (vfov_deg->given)
-        out->vfov_rad = (float)(vfov_deg->value * degree);
-    if (ortho->given)
-        out->view_height = (float)ortho->value;
-    return EXIT_DONE;
 }

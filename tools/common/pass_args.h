@@ -26,11 +26,6 @@ io_passes_request pass_request(const pass_settings *p);
 /* Whether an input is a frame, by its extension: .exr, .png, .pfm; else a mesh. */
 bool pass_is_frame(const char *input);
 
-/* The request of a frame whose camera --vfov or --ortho tells, or its metadata. Returns
- * an exit code. */
-int pass_view_request(const pass_settings *p, const arg_number *vfov_deg,
-                      const arg_number *ortho, io_passes_request *out, report *r);
-
 /* The rows, for a table of settings that have them as `member_`. */
 #define PASS_ROWS(settings_, member_)                                                    \
     {.name = "--depth",                                                                  \

@@ -23,7 +23,7 @@ static const arg input_rows[] = {
 static const arg_table input_table = ARG_TABLE("Input", input_rows);
 
 static const arg pass_rows[] = {PASS_ROWS(viewer_settings, passes)};
-static const arg_table pass_table = ARG_TABLE("Passes of frames", pass_rows);
+const arg_table viewer_passes = ARG_TABLE("Passes of frames", pass_rows);
 
 static const arg camera_rows[] = {
     VIEW_CAMERA_ROWS(frame_camera_found, "45; of a frame: from the file's metadata",
@@ -33,7 +33,7 @@ static const arg camera_rows[] = {
     FRAME_CAMERA_ORDER_ROW(viewer_settings, lens),
     FRAME_CAMERA_LENS_ROWS(viewer_settings, lens),
 };
-static const arg_table camera_table =
+const arg_table viewer_camera =
     ARG_TABLE("Camera (framed by itself without these)", camera_rows);
 
 frame_camera_settings viewer_frame_camera(const viewer_settings *s)
@@ -45,9 +45,43 @@ frame_camera_settings viewer_frame_camera(const viewer_settings *s)
     return camera;
 }
 
+static const char *mesh_mistake(const viewer_settings *s)
+{
+    const frame_camera_settings *lens = &s->lens;
+    if (s->frames)
+        return "--frames: is for .exr frames, not for a mesh; leave it out";
+    if (lens->order.given || lens->hfov_deg.given || lens->lens_mm.given
+        || lens->sensor_mm.given || isnan(s->view.vfov_deg.value))
+        return "--hfov, --lens, --sensor, --camera-order and --vfov fit: are for frames; "
+               "give a mesh's --vfov in degrees";
+    return NULL;
+}
+
+static const char *frame_mistake(const viewer_settings *s)
+{
+    const view_settings *v = &s->view;
+    const frame_camera_settings camera = viewer_frame_camera(s);
+    const char *mistake = pass_mistake(&s->passes, camera.ortho.given);
+    if (!mistake)
+        mistake = frame_camera_mistake(&camera);
+    if (!mistake && (v->eye.given || v->target.given || v->up.given))
+        mistake =
+            "--eye, --target and --up: are for meshes; a frame has the view that it "
+            "was rendered with";
+    if (!mistake && (v->layers.given || v->normals_from.given || v->guard_px.given))
+        mistake = "--layers, --normals-from and --guard-px: are for meshes; leave them "
+                  "out";
+    return mistake;
+}
+
+const char *viewer_mistake(const viewer_settings *s)
+{
+    return pass_is_frame(s->view.model) ? frame_mistake(s) : mesh_mistake(s);
+}
+
 static const arg_table *const tables[] = {
-    &input_table,  &pass_table,  &camera_table,      &view_buffers,
-    &args_threads, &args_device, &args_output_lines, NULL};
+    &input_table,  &viewer_passes, &viewer_camera,     &view_buffers,
+    &args_threads, &args_device,   &args_output_lines, NULL};
 
 static const char *const examples[] = {
     "a mesh, the default method beside the truth",

@@ -24,14 +24,14 @@ static const char *const falloffs[] = {"none",        "linear",  "sqrt", "cubic"
 static const arg file_rows[] = {
     {.name = "INPUT",
      .required = true,
-     ARG_INTO(ARG_TEXT, tune_settings, view.model),
+     ARG_INTO(ARG_TEXT, tune_settings, in.view.model),
      .help = "mesh (glTF, OBJ, ...), scene made in code (builtin:courtyard, ...), or a "
              "frame with a depth pass (.exr, .png, .pfm)"},
     VIEW_IMPORT_ROW,
     {.name = "--output",
      .short_name = 'o',
      .value = "FILE",
-     ARG_INTO(ARG_TEXT, tune_settings, view.output),
+     ARG_INTO(ARG_TEXT, tune_settings, in.view.output),
      .help = "text to write the options to, for --options FILE"},
 };
 static const arg_table file_table = ARG_TABLE("Files", file_rows);
@@ -119,13 +119,10 @@ static const arg check_rows[] = {
 };
 static const arg_table check_table = ARG_TABLE("Other view", check_rows);
 
-static const arg pass_rows[] = {PASS_ROWS(tune_settings, passes)};
-static const arg_table pass_table = ARG_TABLE("Passes of frames", pass_rows);
-
-static const arg_table *const tables[] = {&file_table,        &fit_table,    &truth_table,
-                                          &check_table,       &pass_table,   &view_camera,
-                                          &view_buffers,      &args_threads, &args_device,
-                                          &args_output_lines, NULL};
+static const arg_table *const tables[] = {
+    &file_table,    &fit_table,         &truth_table,  &check_table,
+    &viewer_passes, &viewer_camera,     &view_buffers, &args_threads,
+    &args_device,   &args_output_lines, NULL};
 
 static const char *const examples[] = {
     "the options at which bitmask comes nearest to ray tracing",
@@ -153,11 +150,8 @@ static const char *mesh_mistake(const tune_settings *s)
 
 static const char *frame_mistake(const tune_settings *s)
 {
-    const view_settings *v = &s->view;
-    if (v->size.given || v->eye.given || v->target.given || v->up.given || v->camera
-        || v->layers.given || v->normals_from.given || v->guard_px.given)
-        return "--size, --eye, --target, --up, --camera, --layers, --normals-from, "
-               "--guard-px: are for meshes; leave them out";
+    if (s->in.view.size.given)
+        return "--size: is for meshes; a frame has the size that it was rendered with";
     if (s->check_eye.given || s->check_orbit_deg.given)
         return "--check-eye, --check-orbit: are for meshes; give another frame with "
                "--check";
@@ -172,12 +166,14 @@ static const char *frame_mistake(const tune_settings *s)
 
 static int check(const tune_settings *s, unsigned *fits, report *r)
 {
-    const crv_method *method = s->view.common.options.method;
-    const bool is_frame = pass_is_frame(s->view.model);
+    const crv_method *method = s->in.view.common.options.method;
+    const bool is_frame = pass_is_frame(s->in.view.model);
     const unsigned wanted = s->fit ? tune_parse(s->fit) : TUNE_USUAL;
-    const char *mistake = is_frame ? frame_mistake(s) : mesh_mistake(s);
+    const char *mistake = viewer_mistake(&s->in);
     char words[64];
-    if (!mistake && estimate_is_of_relief(&s->view.common.options))
+    if (!mistake)
+        mistake = is_frame ? frame_mistake(s) : mesh_mistake(s);
+    if (!mistake && estimate_is_of_relief(&s->in.view.common.options))
         mistake = "--characteristic field: there is no relief to fit; leave it out";
     if (mistake) {
         report_error(r, "%s", mistake);
@@ -189,7 +185,8 @@ static int check(const tune_settings *s, unsigned *fits, report *r)
                      method->name, tune_words(tune_applicable(TUNE_ALL, method), words));
         return EXIT_USAGE;
     }
-    return s->view.output ? output_spare(s->view.output, s->view.model, r) : EXIT_DONE;
+    return s->in.view.output ? output_spare(s->in.view.output, s->in.view.model, r)
+                             : EXIT_DONE;
 }
 
 bool tune_work_stop(void *user)
@@ -278,8 +275,8 @@ static int compare_other(tune_work *w, const tune_result *found, voice *log)
     tune_view *v = &w->view[TUNE_OTHER];
     tune_error before, after;
     bool shows = false;
-    int result = pass_is_frame(w->s->view.model) ? tune_frame_other(w, &shows)
-                                                 : tune_mesh_other(w, &shows);
+    int result = pass_is_frame(w->s->in.view.model) ? tune_frame_other(w, &shows)
+                                                    : tune_mesh_other(w, &shows);
     if (interrupt_waits())
         return EXIT_DONE;
     if (result != EXIT_DONE || !shows)
@@ -300,7 +297,7 @@ static int compare_other(tune_work *w, const tune_result *found, voice *log)
 
 static int write_options(const tune_work *w, const tune_result *found)
 {
-    const char *path = w->s->view.output;
+    const char *path = w->s->in.view.output;
     char text[OPTION_TEXT_SIZE];
     if (!path)
         return EXIT_DONE;
@@ -322,7 +319,7 @@ static int write_options(const tune_work *w, const tune_result *found)
 
 static int load(tune_work *w)
 {
-    const char *model = w->s->view.model;
+    const char *model = w->s->in.view.model;
     const tune_view *v = &w->view[TUNE_FITTED];
     const bool is_frame = pass_is_frame(model);
     const int result = is_frame ? tune_frame_load(w) : tune_mesh_load(w);
@@ -378,7 +375,7 @@ static void free_work(tune_work *w)
 static int run(const void *settings, report *r)
 {
     const tune_settings *s = settings;
-    tune_work w = {.s = s, .r = r, .start = s->view.common.options};
+    tune_work w = {.s = s, .r = r, .start = s->in.view.common.options};
     voice log = {.r = r};
     const crv_logger logger = {take_line, &log};
     const crv_allocator usual = {0};
@@ -387,7 +384,7 @@ static int run(const void *settings, report *r)
     if (result != EXIT_DONE)
         return result;
     interrupt_hold(GRACE_S);
-    result = device_context_in(&s->view.common, &logger, &usual, r, &w.e.context);
+    result = device_context_in(&s->in.view.common, &logger, &usual, r, &w.e.context);
     if (result == EXIT_DONE)
         result = tune(&w, fits, &log);
     free_work(&w);

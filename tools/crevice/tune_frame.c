@@ -127,22 +127,41 @@ static int read_truth(tune_work *w, int index, const char *frame, const char *tr
     return result;
 }
 
+/* Reads a frame with its own camera, if a file has one of each. */
+static int read_frame(const tune_work *w, const char *path, io_frame *out)
+{
+    const frame_camera_settings camera = viewer_frame_camera(&w->s->in);
+    camera_frame frame = {.path = path};
+    camera_file cameras = {0};
+    io_passes_request request = pass_request(&w->s->in.passes);
+    int result = EXIT_DONE;
+    request.keep_overscan = true; /* as `crevice ao` does */
+    frame_camera_share(&camera, &request);
+    frame.has_number = frame_camera_number(path, &frame.number);
+    if (camera.file)
+        result = camera_file_load(camera.file, camera.order.value, &cameras, w->r);
+    if (result == EXIT_DONE && camera.file)
+        result = frame_camera_set(&camera, &cameras, &frame, &request, w->r);
+    camera_file_free(&cameras);
+    if (result != EXIT_DONE)
+        return result;
+    if (io_frame_load(path, &request, out, &w->r->logger) != 0)
+        return EXIT_FAILED;
+    if (w->s->in.view.layer_kind.given)
+        out->desc.layer_kind = (crv_layers)w->s->in.view.layer_kind.value;
+    return EXIT_DONE;
+}
+
 /* The frame into a view without its truth. *window: of the result, without pixels. */
 static int load(tune_work *w, int index, const char *path, io_image *window)
 {
-    const view_settings *s = &w->s->view;
+    const view_settings *s = &w->s->in.view;
     estimator *e = &w->e;
-    io_passes_request request;
     io_frame frame = {0};
     float *depth = NULL;
-    int result =
-        pass_view_request(&w->s->passes, &s->vfov_deg, &s->ortho, &request, w->r);
+    int result = read_frame(w, path, &frame);
     if (result != EXIT_DONE)
         return result;
-    if (io_frame_load(path, &request, &frame, &w->r->logger) != 0)
-        return EXIT_FAILED;
-    if (s->layer_kind.given)
-        frame.desc.layer_kind = (crv_layers)s->layer_kind.value;
     estimate_fit(e, &frame.desc);
     if (!report_ok(w->r, io_frame_to_gbuffer(&frame, e->context, &e->gbuffer),
                    "G-buffer"))
@@ -174,7 +193,7 @@ static int load(tune_work *w, int index, const char *path, io_image *window)
 
 int tune_frame_load(tune_work *w)
 {
-    const char *frame = w->s->view.model;
+    const char *frame = w->s->in.view.model;
     io_image window;
     const int result = load(w, TUNE_FITTED, frame, &window);
     return result == EXIT_DONE ? read_truth(w, TUNE_FITTED, frame, w->s->truth, &window)

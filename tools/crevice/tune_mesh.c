@@ -13,8 +13,8 @@ static reference_options target(const tune_work *w)
 {
     const tune_settings *s = w->s;
     reference_options o = target_of(&w->start);
-    o.normals =
-        s->view.normals_from.value == 0 ? SCENE_NORMALS_INTERPOLATED : SCENE_NORMALS_FACE;
+    o.normals = s->in.view.normals_from.value == 0 ? SCENE_NORMALS_INTERPOLATED
+                                                   : SCENE_NORMALS_FACE;
     if (s->truth_radius.given)
         o.radius = (float)s->truth_radius.value;
     if (s->truth_weighting.given || s->truth_falloff.given)
@@ -36,7 +36,7 @@ static int trace(tune_work *w, int index)
         .model = w->model,
         .g = &w->cast[index],
         .target = target(w),
-        .threads = s->view.common.threads.value,
+        .threads = s->in.view.common.threads.value,
         .rays = s->rays.given          ? s->rays.value
                 : s->evaluations.given ? 64
                                        : 0,
@@ -72,15 +72,15 @@ static int cast(tune_work *w, const view_settings *s, int index)
 int tune_mesh_load(tune_work *w)
 {
     const tune_settings *s = w->s;
-    int result = view_check(&s->view, w->r);
+    int result = view_check(&s->in.view, w->r);
     w->truth_share = 0.2;
     if (result == EXIT_DONE)
-        result = view_load(&s->view, &w->model, w->r);
+        result = view_load(&s->in.view, &w->model, w->r);
     if (result == EXIT_DONE)
-        result = cast(w, &s->view, TUNE_FITTED);
+        result = cast(w, &s->in.view, TUNE_FITTED);
     if (result != EXIT_DONE)
         return result;
-    if (!s->view.common.radius_given) {
+    if (!s->in.view.common.radius_given) {
         w->start.radius = scene_suggest_radius(w->model, &w->cast[TUNE_FITTED].view);
         report_info(w->r, "radius: --radius %g, chosen to suit the view",
                     (double)w->start.radius);
@@ -91,7 +91,7 @@ int tune_mesh_load(tune_work *w)
         report_error(w->r,
                      "%s: nothing in view is occluded within the radius %g; give a "
                      "larger --radius",
-                     s->view.model, (double)w->start.radius);
+                     s->in.view.model, (double)w->start.radius);
         return EXIT_FAILED;
     }
     return result;
@@ -105,7 +105,7 @@ static arg_vector vector_of(const double v[3])
 int tune_mesh_other(tune_work *w, bool *shows)
 {
     const tune_settings *s = w->s;
-    view_settings other = s->view;
+    view_settings other = s->in.view;
     scene_view v = w->cast[TUNE_FITTED].view;
     if (!s->check_eye.given && !(fabs(s->check_orbit_deg.value) > 0.0))
         return EXIT_DONE;

@@ -4,13 +4,11 @@
 #define TOOL_TUNE_WORK_H
 
 #include "common/estimate.h"
-#include "common/pass_args.h"
 #include "common/tune.h"
-#include "common/view.h"
+#include "common/viewer_args.h"
 
 typedef struct tune_settings {
-    view_settings view; /* its model may be a frame */
-    pass_settings passes;
+    viewer_settings in; /* without frames and script */
     const char *fit;
     arg_number time_s;
     arg_int evaluations, rays;

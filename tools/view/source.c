@@ -19,17 +19,6 @@ const char *source_frame_name(const source *s, int32_t index, char *out, size_t 
     return (size_t)snprintf(out, size, "%s", input) < size ? out : NULL;
 }
 
-/* What frames have no use for; NULL: nothing was given. */
-static const char *mesh_mistake(const view_settings *v)
-{
-    if (v->eye.given || v->target.given || v->up.given)
-        return "--eye, --target and --up: are for meshes; a frame has the view that it "
-               "was rendered with";
-    if (v->layers.given || v->normals_from.given || v->guard_px.given)
-        return "--layers, --normals-from and --guard-px: are for meshes; leave them out";
-    return NULL;
-}
-
 static int open_shot(source *s, const char *frames, report *r)
 {
     const char *input = s->settings->model;
@@ -136,15 +125,6 @@ static void read_beauty(const source *s, const char *path, const io_frame *frame
 
 static int open_frames(source *s, const char *frames, report *r)
 {
-    const char *mistake = pass_mistake(s->passes, s->camera.ortho.given);
-    if (!mistake)
-        mistake = frame_camera_mistake(&s->camera);
-    if (!mistake)
-        mistake = mesh_mistake(s->settings);
-    if (mistake) {
-        report_error(r, "%s", mistake);
-        return EXIT_USAGE;
-    }
     s->request = pass_request(s->passes);
     s->request.keep_overscan = true; /* as `crevice ao` does */
     frame_camera_share(&s->camera, &s->request);
@@ -163,18 +143,13 @@ int source_open(source *s, const viewer_settings *settings, report *r)
     *s = (source){.settings = &settings->view,
                   .passes = &settings->passes,
                   .camera = viewer_frame_camera(settings)};
+    const char *mistake = viewer_mistake(settings);
+    if (mistake) {
+        report_error(r, "%s", mistake);
+        return EXIT_USAGE;
+    }
     if (pass_is_frame(settings->view.model))
         return open_frames(s, settings->frames, r);
-    if (settings->frames) {
-        report_error(r, "--frames: is for .exr frames, not for a mesh; leave it out");
-        return EXIT_USAGE;
-    }
-    if (s->camera.order.given || s->camera.hfov_deg.given || s->camera.lens_mm.given
-        || s->camera.sensor_mm.given || isnan(s->camera.vfov_deg.value)) {
-        report_error(r, "--hfov, --lens, --sensor, --camera-order and --vfov fit: are "
-                        "for frames; give a mesh's --vfov in degrees");
-        return EXIT_USAGE;
-    }
     const int result = view_check(&settings->view, r);
     return result == EXIT_DONE ? view_load(&settings->view, &s->model, r) : result;
 }
