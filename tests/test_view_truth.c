@@ -228,6 +228,70 @@ static void test_session(void **state)
     session_close(&s);
 }
 
+static tuning wait_for_fit(session *s)
+{
+    tuning t;
+    do {
+        nap();
+        worker_tuning(s->worker, &t);
+    } while (t.phase == TUNING_RUNS);
+    return t;
+}
+
+/* A half's options are fitted to the truth; once they are taken over, the truth is still
+ * what it was. Another wish ends a fit. */
+static void test_tuning(void **state)
+{
+    (void)state;
+    report r;
+    report_init(&r);
+    r.quiet = true;
+    viewer_settings v = {.view.model = "builtin:courtyard",
+                         .view.size = {.width = WIDTH, .height = HEIGHT},
+                         .view.layers.value = 1};
+    session s;
+    char text[TUNING_TEXT_SIZE];
+    assert_int_equal(crv_options_init(&v.view.common.options, sizeof(crv_options), NULL),
+                     CRV_OK);
+    assert_int_equal(session_open(&s, &v, changed, NULL, &r), EXIT_DONE);
+    const float radius = s.wish.half[0].options.radius;
+    session_ask(&s);
+    worker_tune(s.worker, 0, 1.0);
+    tuning t = wait_for_fit(&s);
+    assert_int_equal(t.phase, TUNING_DONE);
+    assert_true(t.has_other);
+    assert_true(t.found.after.mean_square <= t.found.before.mean_square);
+    assert_true(fabsf(t.target.radius - radius) < 1e-6f);
+    assert_non_null(strstr(tuning_text(&t, text), "fitted: RMSE 0."));
+    assert_non_null(strstr(text, "another view: RMSE 0."));
+
+    assert_true(session_take_over(&s, &t));
+    s.wish.half[0].options.radius = 3.0f;
+    s.wish.half[0].options.falloff = CRV_FALLOFF_NONE;
+    const reference_options kept = wish_target(&s.wish, 1);
+    assert_true(fabsf(kept.radius - radius) < 1e-6f);
+    assert_int_equal(kept.falloff, CRV_FALLOFF_LINEAR);
+    assert_true(session_set_method(&s, 0, "gtao"));
+    assert_true(fabsf(wish_target(&s.wish, 1).radius - 3.0f) < 1e-6f);
+    assert_false(session_take_over(&s, &t)); /* of another method */
+
+    session_ask(&s);
+    worker_tune(s.worker, 0, 1e5);
+    do {
+        nap();
+        worker_tuning(s.worker, &t);
+    } while (t.runs < 5);
+    s.wish.view.eye[0] += 0.1;
+    session_ask(&s);
+    t = wait_for_fit(&s);
+    assert_int_equal(t.phase, TUNING_DONE);
+    worker_tune(s.worker, 0, 1e5);
+    worker_stop_tuning(s.worker); /* also one that has not begun */
+    t = wait_for_fit(&s);
+    assert_true(t.phase == TUNING_DONE || t.phase == TUNING_FAILED);
+    session_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -235,6 +299,7 @@ int main(void)
         cmocka_unit_test(test_plane_is_open),
         cmocka_unit_test(test_slots),
         cmocka_unit_test(test_session),
+        cmocka_unit_test(test_tuning),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

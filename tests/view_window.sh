@@ -181,6 +181,36 @@ END
 [ "$(grep '^pixel' stdout.txt | sort -u | wc -l)" -eq 2 ] || fail "frames are mixed up"
 grep -q 'shot.3.exr' stdout.txt || fail "the damaged frame is not told of"
 
+# Options are fitted to the truth and taken over. The truth stays what they were fitted to
+# until there is another method.
+act builtin:courtyard --method gtao --radius 0.2 <<'END'
+size 640 400
+show right truth
+wait
+tune left 3
+take-over left
+wait
+options left
+set left radius 0.7
+wait
+command right
+show left hsao
+wait
+command right
+quit
+END
+grep -q '^fitted: RMSE 0\.[0-9]* to 0\.[0-9]*, bias' stdout.txt || fail "nothing was fitted"
+grep -q '^another view: RMSE 0\.' stdout.txt || fail "no other view"
+grep -q '^radius=' stdout.txt || fail "no options"
+grep -q '^radius=0.2$' stdout.txt && grep -q '^contrast=1$' stdout.txt &&
+    fail "the fitted options are not taken over"
+[ "$(grep -c -- 'crevice reference .*--radius 0.2 .*--falloff linear' stdout.txt)" -eq 1 ] ||
+    fail "the truth does not stay"
+[ "$(grep -c -- 'crevice reference .*--radius 0.7 ' stdout.txt)" -eq 1 ] ||
+    fail "the truth stays for another method"
+echo 'take-over left' >take.txt
+bad 1 'take.txt:1: take-over left: nothing was fitted' view builtin:corner --script take.txt
+
 # A window whose size changes all the time ends with the right picture.
 act builtin:corner <<'END'
 wait

@@ -103,6 +103,26 @@ void app_set_frame(app *a, int index)
     app_ask(a);
 }
 
+/* As `crevice tune` by itself. */
+#define TUNE_SECONDS 10.0
+
+void app_tune(app *a, int half)
+{
+    if (a->tuning.phase == TUNING_RUNS)
+        worker_stop_tuning(a->session.worker);
+    else
+        worker_tune(a->session.worker, half, TUNE_SECONDS);
+}
+
+bool app_take_over(app *a, int half)
+{
+    if (a->tuning.half != half || !session_take_over(&a->session, &a->tuning))
+        return false;
+    panel_sync(a->panel[half]);
+    app_ask(a);
+    return true;
+}
+
 /* What a half shows is grey or colour; both are kept as bytes that PNG writes as they
  * are. */
 bool app_save(app *a, int half, const char *path)

@@ -43,6 +43,7 @@ typedef struct app {
     double pointer_x, pointer_y; /* px of the widget; negative: outside */
     guint settle;                /* the timer that ends moving; 0: none runs */
     atomic_int notified;         /* a picture waits to be taken */
+    tuning tuning;               /* the last fit */
     char told[PROBLEM_SIZE];     /* what the status line says besides; "" */
 } app;
 
@@ -60,6 +61,10 @@ void app_set_dark(app *a, bool dark);
 void app_set_frame(app *a, int index);
 /* The window is called as the input, or as the frame of it. */
 void app_title(app *a);
+/* Begins to fit a half's options to the truth, or ends that with the best so far. */
+void app_tune(app *a, int half);
+/* The options that were fitted become the half's. False: there are none. */
+bool app_take_over(app *a, int half);
 /* Writes what a half shows, without the line and the names: as `render` would. */
 bool app_save(app *a, int half, const char *path);
 

@@ -123,12 +123,10 @@ static void append_frame(char out[COMMAND_SIZE], const source *s, const wish *w)
 static void append_content(char out[COMMAND_SIZE], const source *s, const wish *w,
                            int half, const char *shade, const char *output)
 {
-    const half_wish *own = &w->half[half], *other = &w->half[1 - half];
+    const half_wish *own = &w->half[half];
     char flags[OPTION_TEXT_SIZE];
     if (own->content == HALF_TRUTH) {
-        const crv_options *o =
-            other->content == HALF_METHOD ? &other->options : &own->options;
-        const reference_options target = target_of(o);
+        const reference_options target = wish_target(w, half);
         append_to(out, COMMAND_SIZE, "crevice reference ");
         append_mesh(out, s, w);
         append_to(out, COMMAND_SIZE, "%s --rays 1024",

@@ -8,11 +8,21 @@
 #include <string.h>
 
 #include "common/device.h"
+#include "common/target.h"
 #include "halves.h"
 
 /* Moving pictures are ray-cast in about this time. */
 #define MOVING_MS 30.0
 enum { COARSEST = 8, FIRST_GUESS = 4 };
+
+/* Of a half that shows no method, the other one says it. */
+reference_options wish_target(const wish *w, int half)
+{
+    const half_wish *own = &w->half[half], *other = &w->half[1 - half];
+    const half_wish *asked =
+        own->content == HALF_METHOD || other->content != HALF_METHOD ? own : other;
+    return asked->keeps_target ? asked->target : target_of(&asked->options);
+}
 
 void shown_free(shown *s)
 {
@@ -42,6 +52,8 @@ shown shown_hold(const shown *s)
 static void take_line(void *user, crv_log_level level, const char *line)
 {
     engine *e = user;
+    if (e->muted)
+        return;
     if (level != CRV_LOG_ERROR)
         e->r->logger.fn(e->r->logger.user, level, line);
     else if (e->problem[0] == '\0')

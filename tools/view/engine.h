@@ -40,6 +40,7 @@ typedef struct engine {
     seen_truth seen[HALVES];
     painted painted[HALVES];
     char problem[PROBLEM_SIZE];
+    bool muted; /* nothing that is logged is of interest */
 } engine;
 
 /* `from` and t must outlive the engine. Returns an exit code; close it in any case. */

@@ -4,8 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "common/target.h"
-
 enum { MOVING_RAYS = 4 };
 
 void halves_forget(engine *e)
@@ -31,17 +29,9 @@ static crv_options coarse_options(const engine *e, const crv_options *options)
     return o;
 }
 
-/* Whose method says what the truth of this half is. */
-static const crv_options *truth_options(const wish *w, int half)
+reference_options halves_target(const engine *e, const wish *w, int half)
 {
-    const half_wish *own = &w->half[half], *other = &w->half[1 - half];
-    return own->content == HALF_METHOD || other->content != HALF_METHOD ? &own->options
-                                                                        : &other->options;
-}
-
-static reference_options truth_of(const engine *e, const wish *w, int half)
-{
-    reference_options o = target_of(truth_options(w, half));
+    reference_options o = wish_target(w, half);
     if (!e->source->model)
         o.kind = REFERENCE_VISIBLE;
     if (e->source->settings->normals_from.value != 0)
@@ -57,7 +47,7 @@ bool halves_are_settled(const engine *e, const wish *w)
 void halves_want_truths(engine *e, const wish *w)
 {
     for (int i = 0; i < HALVES && e->truth; i++) {
-        const reference_options o = truth_of(e, w, i);
+        const reference_options o = halves_target(e, w, i);
         truth_want(e->truth, i, halves_are_settled(e, w) ? e->buffers : NULL, &o);
     }
 }
@@ -86,7 +76,7 @@ static float *open_plane(engine *e)
 /* A few rays for each pixel, while the camera moves. */
 static float *trace_now(engine *e, const wish *w, int half)
 {
-    reference_options o = truth_of(e, w, half);
+    reference_options o = halves_target(e, w, half);
     reference *work = NULL;
     float *out = take_plane(e);
     o.rays = MOVING_RAYS;

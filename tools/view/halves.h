@@ -11,6 +11,9 @@ bool halves_make(engine *e, const wish *w, shown *out);
 /* Tells the thread of the truth what is wanted. */
 void halves_want_truths(engine *e, const wish *w);
 
+/* What the truth of a half is, for this input. */
+reference_options halves_target(const engine *e, const wish *w, int half);
+
 /* All that was made of the G-buffer is void. */
 void halves_forget(engine *e);
 

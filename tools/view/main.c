@@ -41,8 +41,12 @@ static gboolean on_ready(gpointer user)
 {
     app *a = user;
     atomic_store(&a->notified, 0);
-    if (a->window)
-        take_picture(a);
+    if (!a->window)
+        return G_SOURCE_REMOVE;
+    take_picture(a);
+    worker_tuning(a->session.worker, &a->tuning);
+    for (int i = 0; i < HALVES; i++)
+        panel_show_tuning(a->panel[i]);
     return G_SOURCE_REMOVE;
 }
 

@@ -17,6 +17,7 @@ struct panel {
     app *app;
     int half;
     GtkWidget *box, *content, *look, *preset, *filter, *options, *numbers;
+    GtkWidget *tune, *take_over, *tuned;
     const char *contents[CONTENTS_MAX]; /* methods, "truth", "open", NULL */
     int methods;
     bool syncing;
@@ -136,6 +137,20 @@ static void on_reset(GtkButton *button, gpointer user)
     changed(p);
 }
 
+static void on_tune(GtkButton *button, gpointer user)
+{
+    (void)button;
+    panel *p = user;
+    app_tune(p->app, p->half);
+}
+
+static void on_take_over(GtkButton *button, gpointer user)
+{
+    (void)button;
+    panel *p = user;
+    app_take_over(p->app, p->half);
+}
+
 static void append_row(GtkWidget *box, const char *title, GtkWidget *control,
                        const char *tooltip)
 {
@@ -181,11 +196,46 @@ static void make_choices(panel *p)
     g_signal_connect(p->filter, "notify::selected", G_CALLBACK(on_filter), p);
 }
 
+static GtkWidget *make_label(void)
+{
+    GtkWidget *label = gtk_label_new("");
+    gtk_label_set_xalign(GTK_LABEL(label), 0.0f);
+    gtk_label_set_wrap(GTK_LABEL(label), TRUE);
+    gtk_label_set_max_width_chars(GTK_LABEL(label), 36); /* the sidebar stays as wide */
+    gtk_label_set_selectable(GTK_LABEL(label), TRUE);
+    return label;
+}
+
+/* Above the options and scrolled with them: its lines take no room of the picture. */
+static void make_tuning(panel *p)
+{
+    GtkWidget *row = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
+    p->tune = gtk_button_new_with_label("Fit to truth");
+    p->take_over = gtk_button_new_with_label("Take over");
+    p->tuned = make_label();
+    gtk_widget_set_tooltip_text(
+        p->tune,
+        "search the radius, thickness, falloff and contrast that bring this half "
+        "nearest to the truth as it is now, and look whether that holds in "
+        "another view (Ctrl+T)");
+    gtk_widget_set_tooltip_text(
+        p->take_over, "set the fitted options; the truth stays what they were fitted to "
+                      "until the next method or reset (Ctrl+Shift+T)");
+    g_signal_connect(p->tune, "clicked", G_CALLBACK(on_tune), p);
+    g_signal_connect(p->take_over, "clicked", G_CALLBACK(on_take_over), p);
+    gtk_box_append(GTK_BOX(row), p->tune);
+    gtk_box_append(GTK_BOX(row), p->take_over);
+    gtk_box_append(GTK_BOX(p->options), row);
+    gtk_box_append(GTK_BOX(p->options), p->tuned);
+    gtk_widget_set_visible(p->tuned, FALSE);
+}
+
 static GtkWidget *make_options(panel *p)
 {
     GtkWidget *scrolled = gtk_scrolled_window_new();
     p->options = gtk_box_new(GTK_ORIENTATION_VERTICAL, 10);
     gtk_widget_set_margin_end(p->options, 12);
+    make_tuning(p);
     for (; p->rows < OPTIONS_MAX && crv_option_at(p->rows); p->rows++) {
         const crv_option *option = crv_option_at(p->rows);
         const bool is_radius = strcmp(option->key, "radius") == 0;
@@ -217,10 +267,7 @@ panel *panel_make(app *a, int half)
         "accessibility: white is open. lit: the scene, or the frame's picture, with "
         "it. difference: left "
         "minus right; orange where the left is brighter, blue where it is darker");
-    p->numbers = gtk_label_new("");
-    gtk_label_set_xalign(GTK_LABEL(p->numbers), 0.0f);
-    gtk_label_set_wrap(GTK_LABEL(p->numbers), TRUE);
-    gtk_label_set_selectable(GTK_LABEL(p->numbers), TRUE);
+    p->numbers = make_label();
     gtk_widget_set_tooltip_text(
         p->numbers, "root mean square and mean of this half minus the ray-traced truth, "
                     "over the surfaces; what the truth's own noise adds is taken off");
@@ -276,9 +323,25 @@ void panel_sync(panel *p)
     gtk_widget_set_sensitive(p->options, method);
     gtk_widget_set_sensitive(p->filter, method);
     gtk_widget_set_sensitive(p->preset, method);
+    panel_show_tuning(p);
     for (int i = 0; i < p->rows; i++)
         option_row_sync(&p->row[i], &h->options);
     p->syncing = false;
+}
+
+void panel_show_tuning(panel *p)
+{
+    const half_wish *h = wish_of(p);
+    const tuning *t = &p->app->tuning;
+    const bool own = t->half == p->half, runs = t->phase == TUNING_RUNS;
+    char text[TUNING_TEXT_SIZE];
+    gtk_button_set_label(GTK_BUTTON(p->tune), own && runs ? "Stop" : "Fit to truth");
+    gtk_widget_set_sensitive(p->tune, h->content == HALF_METHOD && (own || !runs));
+    gtk_widget_set_sensitive(p->take_over,
+                             own && t->phase == TUNING_DONE && h->content == HALF_METHOD
+                                 && h->options.method == t->found.options.method);
+    gtk_label_set_text(GTK_LABEL(p->tuned), own ? tuning_text(t, text) : "");
+    gtk_widget_set_visible(p->tuned, own && t->phase != TUNING_NONE);
 }
 
 void panel_show_numbers(panel *p)
@@ -293,9 +356,10 @@ void panel_show_numbers(panel *p)
                                h->rmse > 0.0 ? "" : "below ",
                                h->rmse > 0.0 ? h->rmse : h->truth.error, h->bias);
     if (h->has_truth && h->truth.passes > 0)
-        g_string_append_printf(text, "%struth of %d rays, standard error %.4f",
-                               text->len ? "\n" : "", h->truth.passes * TRUTH_PASS_RAYS,
-                               h->truth.error);
+        g_string_append_printf(text, "%struth%s of %d rays, standard error %.4f",
+                               text->len ? "\n" : "",
+                               s->wish.half[p->half].keeps_target ? " of the fit," : "",
+                               h->truth.passes * TRUTH_PASS_RAYS, h->truth.error);
     else if (h->has_truth)
         g_string_append_printf(text, "%struth: first rays ...", text->len ? "\n" : "");
     gtk_label_set_text(GTK_LABEL(p->numbers), text->str);

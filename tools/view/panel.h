@@ -15,6 +15,9 @@ void panel_sync(panel *p);
 /* The numbers of the picture that is shown. */
 void panel_show_numbers(panel *p);
 
+/* How the fit to the truth stands. */
+void panel_show_tuning(panel *p);
+
 /* As the user would: the row "Shows", and the control of an option. False: no such name.
  */
 bool panel_choose(panel *p, const char *content);

@@ -162,6 +162,38 @@ static const char *do_reset(script *s, char **word)
     return NULL;
 }
 
+static bool is_tuned(script *s)
+{
+    const tuning *t = &s->app->tuning;
+    char text[TUNING_TEXT_SIZE];
+    if (t->half != s->number[0] || t->phase < TUNING_DONE)
+        return false;
+    puts(tuning_text(t, text));
+    return true;
+}
+
+static const char *do_tune(script *s, char **word)
+{
+    double seconds;
+    s->number[0] = script_half(word[0]);
+    if (s->number[0] < 0)
+        return no_half;
+    if (!script_number(word[1], &seconds) || !(seconds > 0.0))
+        return no_number;
+    worker_tune(s->app->session.worker, s->number[0], seconds);
+    s->app->tuning = (tuning){.phase = TUNING_RUNS, .half = s->number[0]};
+    s->done = is_tuned;
+    return NULL;
+}
+
+static const char *do_take_over(script *s, char **word)
+{
+    const int half = script_half(word[0]);
+    if (half < 0)
+        return no_half;
+    return app_take_over(s->app, half) ? NULL : "nothing was fitted for this half";
+}
+
 static const char *do_half(script *s, char **word)
 {
     if (script_half(word[0]) < 0)
@@ -407,6 +439,8 @@ const script_action script_actions[] = {
     {"slide", 3, do_slide},
     {"preset", 2, do_preset},
     {"reset", 1, do_reset},
+    {"tune", 2, do_tune},
+    {"take-over", 1, do_take_over},
     {"half", 1, do_half},
     {"split", 1, do_split},
     {"overlay", 1, do_overlay},

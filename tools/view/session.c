@@ -108,6 +108,7 @@ bool session_set_method(session *s, int half, const char *name)
         return false;
     h->options.radius = radius;
     h->content = HALF_METHOD;
+    h->keeps_target = false;
     return true;
 }
 
@@ -122,8 +123,21 @@ void session_set_preset(session *s, int half, crv_preset preset)
     crv_options_preset(&s->wish.half[half].options, preset);
 }
 
+bool session_take_over(session *s, const tuning *t)
+{
+    half_wish *h = &s->wish.half[t->half];
+    if (t->phase != TUNING_DONE || h->content != HALF_METHOD
+        || h->options.method != t->found.options.method)
+        return false;
+    h->options = t->found.options;
+    h->keeps_target = true;
+    h->target = t->target;
+    return true;
+}
+
 void session_reset(session *s, int half)
 {
+    s->wish.half[half].keeps_target = false;
     usual_options(s, s->wish.half[half].options.method->name,
                   &s->wish.half[half].options);
 }

@@ -39,6 +39,11 @@ void session_set_preset(session *s, int half, crv_preset preset);
 /* The method's defaults, and the radius that suits the first view. */
 void session_reset(session *s, int half);
 
+/* Takes over the options that were fitted for a half, whose truth stays what it was until
+ * it gets another method or is reset. False if there are none, or its method is another
+ * by now. */
+bool session_take_over(session *s, const tuning *t);
+
 /* The view that shows the whole mesh. */
 void session_fit(session *s);
 

@@ -76,6 +76,7 @@ static const char *const help_text =
     "  F6: picture or sidebar      Ctrl+1, Ctrl+2: left, right half\n"
     "  Ctrl+Shift+C: copy command  Ctrl+E: copy options\n"
     "  Ctrl+S: save picture        Ctrl+D: dark\n"
+    "  Ctrl+T: fit to truth, stop  Ctrl+Shift+T: take over\n"
     "  F1: this                    Ctrl+Q: quit";
 
 static gboolean on_help_key(GtkEventControllerKey *keys, guint key, guint code,
@@ -136,6 +137,12 @@ static bool control_key(app *a, guint key, bool shift)
         return true;
     case GDK_KEY_s:
         save(a);
+        return true;
+    case GDK_KEY_t:
+        if (shift)
+            app_take_over(a, app_half(a));
+        else
+            app_tune(a, app_half(a));
         return true;
     case GDK_KEY_d:
         app_set_dark(a, !gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(a->dark)));

@@ -27,6 +27,10 @@ typedef struct half_wish {
     half_content content;
     half_look look;
     crv_options options;
+    /* The truth stays what the options were fitted to, whatever they become; false: it is
+     * what they say. */
+    bool keeps_target;
+    reference_options target;
 } half_wish;
 
 typedef struct wish {
@@ -61,6 +65,9 @@ typedef struct shown {
     double began_s, made_s;     /* when it was begun and done, report_seconds() */
     char problem[PROBLEM_SIZE]; /* why it is not what was wished for; "" if it is */
 } shown;
+
+/* What the truth of a half is; of the whole scene, with interpolated normals. */
+reference_options wish_target(const wish *w, int half);
 
 /* NULL does nothing. */
 void shown_free(shown *s);

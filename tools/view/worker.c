@@ -21,6 +21,9 @@ struct worker {
     shown shown;
     bool has_shown;
     uint64_t shown_number;
+    bool tune_asked, tune_stop;
+    tuning_request tune;
+    tuning tuning; /* the last */
 };
 
 static bool same_view(const wish *a, const wish *b)
@@ -66,11 +69,59 @@ static void serve(worker *k, const wish *w, uint64_t number, bool again)
     publish(k, &measured, number);
 }
 
+static void tuning_told(void *user, const tuning *so_far)
+{
+    worker *k = user;
+    monitor_enter(k->monitor);
+    k->tuning = *so_far;
+    monitor_leave(k->monitor);
+    k->ready(k->user);
+}
+
+static bool tuning_stops(void *user)
+{
+    worker *k = user;
+    monitor_enter(k->monitor);
+    const bool stops = k->quit || k->tune_stop || k->asked != k->served;
+    monitor_leave(k->monitor);
+    return stops;
+}
+
+/* The thread of the truth leaves the processors to it. */
+static void tune(worker *k, const wish *w, const tuning_request *q)
+{
+    truth *t = k->engine->truth;
+    tuning made;
+    if (t)
+        truth_hold(t, true);
+    tuning_run(k->engine, w, q, &made);
+    if (t)
+        truth_hold(t, false);
+}
+
+/* Called and left with the lock held. */
+static void begin_tuning(worker *k)
+{
+    const wish w = k->wish;
+    const tuning_request q = k->tune;
+    k->tune_asked = false;
+    k->busy = true;
+    atomic_store(&k->engine->source->stop, false);
+    monitor_leave(k->monitor);
+    tune(k, &w, &q);
+    monitor_enter(k->monitor);
+    k->busy = false;
+}
+
 static void run(void *data)
 {
     worker *k = data;
     monitor_enter(k->monitor);
     while (!k->quit) {
+        if (k->asked == k->served && k->tune_asked) {
+            begin_tuning(k);
+            continue;
+        }
         if (k->asked == k->served && !k->again) {
             monitor_wait(k->monitor);
             continue;
@@ -138,6 +189,35 @@ void worker_refresh(worker *k)
     monitor_enter(k->monitor);
     k->again = k->asked > 0;
     monitor_wake(k->monitor);
+    monitor_leave(k->monitor);
+}
+
+void worker_tune(worker *k, int half, double seconds)
+{
+    monitor_enter(k->monitor);
+    k->tune = (tuning_request){.half = half,
+                               .seconds = seconds,
+                               .told = tuning_told,
+                               .stop = tuning_stops,
+                               .user = k};
+    k->tuning = (tuning){.phase = TUNING_RUNS, .half = half};
+    k->tune_stop = false;
+    k->tune_asked = true;
+    monitor_wake(k->monitor);
+    monitor_leave(k->monitor);
+}
+
+void worker_stop_tuning(worker *k)
+{
+    monitor_enter(k->monitor);
+    k->tune_stop = true;
+    monitor_leave(k->monitor);
+}
+
+void worker_tuning(worker *k, tuning *out)
+{
+    monitor_enter(k->monitor);
+    *out = k->tuning;
     monitor_leave(k->monitor);
 }
 
