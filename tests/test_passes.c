@@ -126,6 +126,24 @@ static void expect_view_normals(const io_frame *frame)
     crv_context_destroy(context);
 }
 
+/* The frame knows how the normals of the file are turned to view space. */
+static void expect_turn(const io_frame *frame, float given[3][PIXELS], bool in_world)
+{
+    assert_int_equal(frame->normals_in_world, in_world);
+    assert_int_equal(frame->has_world, in_world);
+    for (int i = 0; i < PIXELS; i++) {
+        double dot = 0.0;
+        for (int row = 0; row < 3; row++)
+            for (int c = 0; c < 3; c++)
+                dot += frame->normals_to_view[3 * row + c] * (double)given[c][i]
+                       * (double)view[row][i];
+        assert_true(depth[i] > 1e9f || dot > cos(0.5 * pi / 180.0));
+    }
+    if (in_world)
+        assert_memory_equal(frame->world_to_view, frame->normals_to_view,
+                            sizeof frame->world_to_view);
+}
+
 static void test_world_normals(void **state)
 {
     (void)state;
@@ -142,6 +160,7 @@ static void test_world_normals(void **state)
         assert_true(isinf(*crv_image_at(&frame.depth[0], i % W, i / W, 0))
                     == (depth[i] == 1e10f));
     expect_view_normals(&frame);
+    expect_turn(&frame, world, true);
     io_frame_free(&frame);
 }
 
@@ -156,10 +175,21 @@ static void test_view_normals(void **state)
     assert_true(frame.has_normals);
     assert_int_equal(frame.normal_space, CRV_NORMAL_VIEW);
     expect_view_normals(&frame);
+    expect_turn(&frame, view, false);
     io_frame_free(&frame);
     request.normal_space = IO_NORMALS_VIEW;
     load(path, &request, &frame);
     assert_int_equal(frame.normal_space, CRV_NORMAL_VIEW);
+    io_frame_free(&frame);
+    /* Axes that the user flips are those of the file. */
+    static float flipped[3][PIXELS];
+    memcpy(flipped, view, sizeof view);
+    for (int i = 0; i < PIXELS; i++)
+        flipped[1][i] = -flipped[1][i];
+    request.flip_normals[1] = true;
+    load(write_frame(flipped), &request, &frame);
+    expect_view_normals(&frame);
+    expect_turn(&frame, flipped, false);
     io_frame_free(&frame);
 }
 
@@ -177,6 +207,7 @@ static void test_mirrored_normals(void **state)
     assert_true(frame.has_normals);
     assert_non_null(strstr(support_lines.text, "mirrored"));
     expect_view_normals(&frame);
+    expect_turn(&frame, left_handed, true);
     io_frame_free(&frame);
 }
 

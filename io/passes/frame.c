@@ -117,6 +117,25 @@ static int settle_cameras(const char *path, const io_passes_request *request,
     return 1;
 }
 
+/* Axes that the user flipped are those of the file again. */
+static void settle_spaces(const io_passes_request *request, const io__verdict *verdict,
+                          io_frame *frame)
+{
+    const io__reading *reading = &verdict->reading;
+    for (int i = 0; i < 9; i++) {
+        const double identity = i % 4 == 0 ? 1.0 : 0.0;
+        const double turn = reading->id ? reading->turn[i] : identity;
+        const bool flipped = reading->id && request->flip_normals[i % 3];
+        frame->normals_to_view[i] = flipped ? -turn : turn;
+    }
+    frame->normals_in_world =
+        reading->id == IO__READ_METADATA || reading->id >= IO__READ_AXES;
+    frame->has_world = frame->normals_in_world || verdict->camera.has_rotation;
+    memcpy(frame->world_to_view,
+           frame->normals_in_world ? frame->normals_to_view : verdict->camera.to_view,
+           sizeof frame->world_to_view);
+}
+
 static int settle(const char *path, const io_passes_request *request,
                   const io__pass_names *names, io_frame *frame, const crv_logger *log)
 {
@@ -150,6 +169,7 @@ static int settle(const char *path, const io_passes_request *request,
         for (int i = 0; i < 9; i++)
             frame->camera.world_to_view[i] = (float)verdict.camera.to_view[i];
     settle_mixed(path, frame, log);
+    settle_spaces(request, &verdict, frame);
     if (verdict.reading.id)
         io__apply_reading(&verdict.reading, frame);
     io__info(log, path, "camera: %s, %s", verdict.camera.text,

@@ -88,8 +88,13 @@ typedef struct io_frame {
     int reading;
     bool reading_decided;
     double deviation; /* degrees between the normals and depth; 0: there are none */
-    bool zooms;       /* a later frame, which was seen with another field of view */
-    io_image image;   /* owns the pixels that the views below show */
+    /* Directions to view space, row-major; orthogonal, reflections perhaps: those of the
+     * file's world, if has_world, and those in the space of the file's normals, which is
+     * view space if there are none. */
+    bool has_world, normals_in_world;
+    double world_to_view[9], normals_to_view[9];
+    bool zooms;     /* a later frame, which was seen with another field of view */
+    io_image image; /* owns the pixels that the views below show */
     crv_image depth[CRV_MAX_LAYERS]; /* planar, whatever the file holds; background
                                         INFINITY */
     crv_image normals;
