@@ -4,6 +4,7 @@
 crevice_test(test_reference_sampling SOURCES test_reference_sampling.c
     LIBS test_scene_support)
 crevice_test(test_reference SOURCES test_reference.c LIBS test_scene_support)
+crevice_test(test_scene_bent SOURCES test_scene_bent.c LIBS test_scene_support)
 crevice_test(test_reference_checkpoint SOURCES test_reference_checkpoint.c
     LIBS test_scene_support)
 if(TARGET crevice_io)

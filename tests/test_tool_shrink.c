@@ -106,10 +106,40 @@ static void test_guard_band(void **state)
     io_image_free(&ao);
 }
 
+/* Means of bent normals are directions again; without a surface there is none. */
+static void test_bent_normals(void **state)
+{
+    static const char *const names[] = {"AO", "bent.X", "bent.Y", "bent.Z"};
+    float depth[6] = {1, 1, INFINITY, 1, INFINITY, INFINITY};
+    const float half = sqrtf(0.5f), values[4][6] = {{0.25f, 0.75f, 1, 0.5f, 1, 1},
+                                                    {1, 0, 9, 0, 0, 0},
+                                                    {0, 1, 0, 0, 0, 0},
+                                                    {0, 0, 0, 1, 0, 0}};
+    const float expected[4][3] = {
+        {0.5f, 0.5f, 1.0f}, {half, 0, 0}, {half, 0, 0}, {0, 1, 0}};
+    io_frame frame = make_frame(depth, 6, 1);
+    io_image ao;
+    report r;
+    (void)state;
+    report_init(&r);
+    assert_int_equal(io_image_init(&ao, 6, 1, names, 4, NULL), 0);
+    memcpy(ao.channels[0].data, values, sizeof values); /* channels lie in a row */
+    ao.display_width = 6;
+    ao.display_height = 2;
+    assert_int_equal(shrink(&frame, 2, &ao, &r), EXIT_DONE);
+    assert_int_equal(ao.channel_count, 4);
+    for (int32_t k = 0; k < 4; k++) {
+        assert_string_equal(ao.channels[k].name, names[k]);
+        for (int i = 0; i < 3; i++)
+            assert_float_equal(ao.channels[k].data[i], expected[k][i], 1e-7f);
+    }
+    io_image_free(&ao);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_coverage),
-                                       cmocka_unit_test(test_overscan),
-                                       cmocka_unit_test(test_guard_band)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_coverage), cmocka_unit_test(test_overscan),
+        cmocka_unit_test(test_guard_band), cmocka_unit_test(test_bent_normals)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -95,6 +95,22 @@ static bool reads(const crv_options *o, const char *key)
     return option && crv_option_applies(option, o->method, o->filter) != 0;
 }
 
+int estimate_check_method(const char *flag, const char *key, const crv_method *method,
+                          report *r)
+{
+    const crv_option *option = crv_option_find(key);
+    char names[256] = "";
+    size_t used = 0;
+    if (crv_option_applies(option, method, NULL))
+        return EXIT_DONE;
+    for (int32_t i = 0; i < crv_method_count() && used < sizeof names; i++)
+        if (crv_option_applies(option, crv_method_at(i), NULL))
+            used += (size_t)snprintf(names + used, sizeof names - used, "%s--method %s",
+                                     used == 0 ? "" : " or ", crv_method_at(i)->name);
+    report_error(r, "%s: is not read by %s; give %s", flag, method->name, names);
+    return EXIT_USAGE;
+}
+
 bool estimate_is_of_relief(const crv_options *options)
 {
     return reads(options, "characteristic")
@@ -120,15 +136,20 @@ static void tell(const estimator *e, double seconds, report *r)
 
 int estimate_run(estimator *e, io_image *out, report *r)
 {
-    static const char *const names[] = {"AO"};
+    static const char *const names[] = {"AO", "bent.X", "bent.Y", "bent.Z"};
+    const bool bent = e->options.bent_normal;
     const int32_t width = e->desc.width - e->desc.guard_left - e->desc.guard_right;
     const int32_t height = e->desc.height - e->desc.guard_top - e->desc.guard_bottom;
     const double start = report_seconds();
-    if (io_image_init(out, width, height, names, 1, &r->logger) != 0)
+    crv_result result;
+    if (io_image_init(out, width, height, names, bent ? 4 : 1, &r->logger) != 0)
         return EXIT_FAILED;
-    crv_image result = crv_image_packed(out->channels[0].data, width, height, 1);
+    crv_result_init(&result, sizeof result);
+    result.accessibility = io_image_view(out, 0, 1);
+    if (bent)
+        result.bent_normal = io_image_view(out, 1, 3);
     e->run = progress_begin(r, "estimation", 0, 0);
-    const crv_status status = crv_plan_run(e->plan, e->gbuffer, &result);
+    const crv_status status = crv_plan_run_result(e->plan, e->gbuffer, &result);
     progress_end(&e->run);
     if (!report_ok(r, status, "estimation")) {
         io_image_free(out);

@@ -39,10 +39,16 @@ bool estimate_same_options(const crv_options *a, const crv_options *b);
  * infinite. The caller frees it. Returns an exit code. */
 int estimate_depth(estimator *e, float **out, report *r);
 
+/* EXIT_DONE if the method reads the option of this key, else an error line that begins
+ * with the flag and names the methods that do. */
+int estimate_check_method(const char *flag, const char *key, const crv_method *method,
+                          report *r);
+
 /* Whether the options ask for a height field and nothing else. */
 bool estimate_is_of_relief(const crv_options *options);
 
-/* Runs the plan on e->gbuffer. *out gets one channel, AO; the caller frees it. */
+/* Runs the plan on e->gbuffer. *out gets the channel AO and, if the options want bent
+ * normals, bent.X, bent.Y and bent.Z in view space; the caller frees it. */
 int estimate_run(estimator *e, io_image *out, report *r);
 
 void estimate_close(estimator *e);

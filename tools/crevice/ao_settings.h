@@ -3,6 +3,7 @@
 #ifndef TOOL_AO_SETTINGS_H
 #define TOOL_AO_SETTINGS_H
 
+#include "bent.h"
 #include "common/frame_camera.h"
 #include "common/pass_args.h"
 
@@ -19,6 +20,8 @@ typedef struct ao_settings {
     const char *channel, *apply, *albedo, *views;
     const char *receive, *occlude; /* mattes, as io_matte_read() takes them */
     arg_vector tint;
+    bent_settings bent;
+    const char *bent_channel;
 } ao_settings;
 
 #endif

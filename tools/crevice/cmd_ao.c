@@ -104,6 +104,16 @@ static const arg append_rows[] = {
              "albedo RHO or R,G,B, 0 to 1, or a colour pass such as \"View "
              "Layer.DiffCol\""},
 };
+static const arg bent_rows[] = {
+    BENT_ROWS(ao_settings, bent, "that of the frame's normals"),
+    {.name = "--bent-channel",
+     .value = "NAME",
+     .computed = "bent, beside AO",
+     ARG_INTO(ARG_TEXT, ao_settings, bent_channel),
+     .help = "for --append: the name of their layer, such as \"View Layer.bent\""},
+};
+static const arg_table bent_table = ARG_TABLE("Bent normals", bent_rows);
+
 static const arg mask_rows[] = {
     {.name = "--receive",
      .value = "MATTE",
@@ -144,9 +154,9 @@ static const arg camera_rows[] = {
 };
 static const arg_table camera_table = ARG_TABLE("Camera", camera_rows);
 
-static const arg_table *const tables[] = {&file_table,  &append_table,      &mask_table,
-                                          &pass_table,  &camera_table,      &args_threads,
-                                          &args_device, &args_output_lines, NULL};
+static const arg_table *const tables[] = {
+    &file_table,   &append_table, &bent_table,  &mask_table,        &pass_table,
+    &camera_table, &args_threads, &args_device, &args_output_lines, NULL};
 
 static const char *const examples[] = {
     "a frame whose camera was 60 degrees high",
@@ -181,6 +191,9 @@ static const char *frames_mistake(const ao_settings *s, frame_list *list)
         return "IN: needs one place for the frame's number; write shot.####.exr";
     if (frames_places(s->output) != 1)
         return "-o: needs one place for the frame's number; write ao.####.exr";
+    if (s->bent.output && frames_places(s->bent.output) != 1)
+        return "--bent-output: needs one place for the frame's number; write "
+               "bent.####.png";
     return NULL;
 }
 
@@ -197,6 +210,23 @@ static const char *shot_mistake(const ao_settings *s)
     return NULL;
 }
 
+/* Whether bent normals get to any file. */
+static const char *bent_place_mistake(const ao_settings *s)
+{
+    const bool wanted = s->common.options.bent_normal;
+    if (s->bent_channel && !(wanted && s->append))
+        return "--bent-channel: is for --append with --bent-normal on; add them";
+    if (!wanted || s->bent.output)
+        return NULL;
+    if (append_is_wanted(s) && !s->append)
+        return "--bent-normal: has no place beside --apply; add --append or "
+               "--bent-output FILE";
+    if (!io_keeps_windows(s->output))
+        return "--bent-normal: only an .exr holds them beside AO; write .exr, or add "
+               "--bent-output FILE";
+    return NULL;
+}
+
 static int check(const ao_settings *s, frame_list *list, view_list *views, report *r)
 {
     const char *mistake = pass_mistake(&s->passes, s->camera.ortho.given);
@@ -209,6 +239,8 @@ static int check(const ao_settings *s, frame_list *list, view_list *views, repor
     if (!mistake)
         mistake = append_mistake(s);
     if (!mistake)
+        mistake = bent_place_mistake(s);
+    if (!mistake)
         mistake = views_mistake(s, views);
     if (!mistake)
         mistake = frames_mistake(s, list);
@@ -216,7 +248,7 @@ static int check(const ao_settings *s, frame_list *list, view_list *views, repor
         report_error(r, "%s", mistake);
         return EXIT_USAGE;
     }
-    return EXIT_DONE;
+    return bent_check(&s->bent, &s->common.options, s->output, r);
 }
 
 static io_passes_request make_request(const ao_settings *s)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -48,6 +49,7 @@ static const arg render_rows[] = {
     {.name = "--half",
      ARG_INTO(ARG_FLAG, render_settings, half),
      .help = "half floats in an EXR"},
+    BENT_ROWS(render_settings, bent, "world"),
 };
 static const arg_table render_table = ARG_TABLE("Pictures", render_rows);
 
@@ -69,15 +71,30 @@ static const char *const examples[] = {
     NULL,
 };
 
+static int check_bent(const render_settings *s, report *r)
+{
+    const bool lit = s->shade.value == SHADE_LIT || s->lit;
+    if (s->view.common.options.bent_normal && !lit && !s->bent.output
+        && !(s->shade.value == SHADE_AO && io_keeps_windows(s->view.output))) {
+        report_error(r,
+                     "--bent-normal: only an .exr holds them beside AO; write .exr, or "
+                     "add --bent-output FILE or --lit FILE");
+        return EXIT_USAGE;
+    }
+    return bent_check(&s->bent, &s->view.common.options, s->view.output, r);
+}
+
 static int check(const render_settings *s, report *r)
 {
-    const char *paths[] = {s->view.output, s->lit, s->unlit};
+    const char *paths[] = {s->view.output, s->lit, s->unlit, s->bent.output};
     int result = view_check(&s->view, r);
+    if (result == EXIT_DONE)
+        result = check_bent(s, r);
     if (result == EXIT_DONE)
         result = relief_check(s, r);
     if (result == EXIT_DONE)
         result = lighting_check(s, r);
-    for (int i = 0; i < 3 && result == EXIT_DONE; i++) {
+    for (int i = 0; i < 4 && result == EXIT_DONE; i++) {
         if (!paths[i])
             continue;
         for (int j = 0; j < i && result == EXIT_DONE; j++) {
@@ -141,6 +158,20 @@ static int estimate(const render_settings *s, const scene *model, const scene_gb
     return result;
 }
 
+/* Means of directions are directions again. */
+static void normalise(io_image *image)
+{
+    const size_t count = (size_t)image->width * (size_t)image->height;
+    float *const v[3] = {image->channels[1].data, image->channels[2].data,
+                         image->channels[3].data};
+    for (size_t i = 0; i < count; i++) {
+        const double x = (double)v[0][i], y = (double)v[1][i], z = (double)v[2][i];
+        const double length = sqrt(x * x + y * y + z * z);
+        for (int k = 0; k < 3 && length > 0.0; k++)
+            v[k][i] = (float)((double)v[k][i] / length);
+    }
+}
+
 /* The mean of each n x n pixels. */
 static int reduce(const io_image *image, int32_t n, io_image *out, report *r)
 {
@@ -163,26 +194,24 @@ static int reduce(const io_image *image, int32_t n, io_image *out, report *r)
             }
         }
     }
+    if (bent_is_there(out))
+        normalise(out);
     return EXIT_DONE;
 }
 
-static int write_image(const render_settings *s, const char *path, const io_image *image,
-                       bool srgb, report *r)
+static int write_lit_image(const render_settings *s, const char *path,
+                           const io_image *image, report *r)
 {
+    const io_write_options options = {
+        .half = s->half, .bits = s->bits.value == 0 ? 8 : 16, .srgb = true};
     io_image small = {0};
-    if (s->aa.value > 1) {
-        int result = reduce(image, s->aa.value, &small, r);
-        if (result == EXIT_DONE) {
-            const render_settings single = {.half = s->half, .bits = s->bits};
-            result = write_image(&single, path, &small, srgb, r);
-        }
-        io_image_free(&small);
-        return result;
-    }
-    io_write_options options = {
-        .half = s->half, .bits = s->bits.value == 0 ? 8 : 16, .srgb = srgb};
-
-    return output_write(path, image, &options, r);
+    if (s->aa.value <= 1)
+        return output_write(path, image, &options, r);
+    int result = reduce(image, s->aa.value, &small, r);
+    if (result == EXIT_DONE)
+        result = output_write(path, &small, &options, r);
+    io_image_free(&small);
+    return result;
 }
 
 /* What lit pictures are made of. */
@@ -197,6 +226,8 @@ static int occlude(const stage *lit, const io_image *ao, io_image *bounced,
                    scene_occlusion *out, report *r)
 {
     *out = (scene_occlusion){.accessibility = crv_image_const(io_image_view(ao, 0, 1))};
+    if (bent_is_there(ao))
+        out->bent_normal = crv_image_const(io_image_view(ao, 1, 3));
     if (!lit->light->bounces)
         return EXIT_DONE;
     const int result = lighting_bounce(lit->light, lit->buffers, ao, bounced, r);
@@ -231,25 +262,63 @@ static int write_lit(const render_settings *s, const char *path, const stage *li
         progress_end(&p);
     }
     if (result == EXIT_DONE)
-        result = write_image(s, path, &image, true, r);
+        result = write_lit_image(s, path, &image, r);
     io_image_free(&image);
     io_image_free(&bounced);
     return result;
 }
 
-static int write_all(const render_settings *s, const stage *lit, const io_image *ao,
-                     report *r)
+/* Brings bent normals to the space that is wanted. */
+static void choose_space(const render_settings *s, const scene_gbuffer *g, io_image *ao)
+{
+    const bool world = !s->bent.space.given || s->bent.space.value == BENT_WORLD;
+    double to_view[9];
+    for (int i = 0; i < 9; i++)
+        to_view[i] = (double)g->camera.world_to_view[i];
+    if (world)
+        bent_turn(ao, to_view);
+    snprintf(ao->made, sizeof ao->made, "crevice %s render: bent=%s", crv_version(),
+             bent_spaces[world ? BENT_WORLD : BENT_VIEW]);
+}
+
+/* Accessibility and bent normals, which are turned in place. */
+static int write_ao(const render_settings *s, const scene_gbuffer *g, io_image *ao,
+                    report *r)
 {
     const char *output = s->view.output;
+    const io_write_options options = {.half = s->half,
+                                      .bits = s->bits.value == 0 ? 8 : 16};
+    io_image small = {0};
     int result = EXIT_DONE;
-    if (s->shade.value == SHADE_AO)
-        result = write_image(s, output, ao, false, r);
-    else
-        result = write_lit(s, output, lit, s->shade.value == SHADE_LIT ? ao : NULL, r);
+    if (s->aa.value > 1) {
+        result = reduce(ao, s->aa.value, &small, r);
+        ao = &small;
+    }
+    if (result == EXIT_DONE && bent_is_there(ao))
+        choose_space(s, g, ao);
+    if (result == EXIT_DONE && s->shade.value == SHADE_AO) {
+        const io_image alone = io_keeps_windows(output) ? *ao : bent_left_out(ao);
+        result = output_write(output, &alone, &options, r);
+    }
+    if (result == EXIT_DONE && s->bent.output)
+        result = bent_write(s->bent.output, ao, &options, r);
+    io_image_free(&small);
+    return result;
+}
+
+/* Lit pictures first, which want view space. */
+static int write_all(const render_settings *s, const stage *lit, io_image *ao, report *r)
+{
+    const bool occluded = s->shade.value == SHADE_LIT;
+    int result = EXIT_DONE;
+    if (s->shade.value != SHADE_AO)
+        result = write_lit(s, s->view.output, lit, occluded ? ao : NULL, r);
     if (result == EXIT_DONE && s->lit)
         result = write_lit(s, s->lit, lit, ao, r);
     if (result == EXIT_DONE && s->unlit)
         result = write_lit(s, s->unlit, lit, NULL, r);
+    if (result == EXIT_DONE && ao->channel_count)
+        result = write_ao(s, lit->buffers, ao, r);
     return result;
 }
 
@@ -289,7 +358,7 @@ static render_settings enlarged(const render_settings *given)
 static int run(const void *settings, report *r)
 {
     const render_settings large = enlarged(settings), *s = &large;
-    bool needs_ao = s->shade.value != SHADE_LIT_NO_AO || s->lit;
+    bool needs_ao = s->shade.value != SHADE_LIT_NO_AO || s->lit || s->bent.output;
     work w = {0};
     stage lit;
     int result = check(s, r);

@@ -218,30 +218,55 @@ static const char *view_in_file(const ao_result *results, int32_t count, int32_t
     return count > 1 ? results[i].view : "";
 }
 
-/* Fills an addition for each result. The caller frees *names. */
-static int make_additions(const ao_settings *s, const char *input,
-                          const ao_result *results, int32_t count,
-                          io_addition additions[MAX_VIEWS], multiplied **names, report *r)
+/* What becomes of the results, and the names that this takes. */
+typedef struct appended {
+    io_addition additions[MAX_VIEWS * 4]; /* of a view in a row, accessibility first */
+    int32_t count, first[MAX_VIEWS];
+    char bent[MAX_VIEWS * 4][IO_NAME_SIZE];
+    multiplied multiplied[MAX_VIEWS];
+} appended;
+
+static void add_bent_normals(const ao_result *result, const char *beside, appended *a)
 {
-    multiplied *m = calloc((size_t)count, sizeof *m);
-    int result = m ? EXIT_DONE : report_no_memory(r);
-    for (int32_t i = 0; i < count && result == EXIT_DONE; i++) {
-        result = find_multiplied(s, input, view_in_file(results, count, i), &m[i], r);
-        additions[i] = (io_addition){.beside = results[i].frame.image.channels[0].name,
-                                     .name = results[i].channel,
-                                     .is_added = s->append,
-                                     .multiplied_count = m[i].count,
-                                     .multiplied = m[i].list};
+    for (int32_t k = 1; k <= 3; k++) {
+        char *name = a->bent[a->count];
+        bent_name(result->bent_layer, k, name);
+        a->additions[a->count++] = (io_addition){.channel = k,
+                                                 .beside = beside,
+                                                 .name = name,
+                                                 .is_added = true,
+                                                 .zero_outside = true,
+                                                 .part = result->bent_layer};
     }
-    *names = m;
+}
+
+/* The caller frees *out, also after an error. */
+static int make_additions(const ao_settings *s, const char *input,
+                          const ao_result *results, int32_t count, appended **out,
+                          report *r)
+{
+    appended *a = *out = calloc(1, sizeof *a);
+    int result = a ? EXIT_DONE : report_no_memory(r);
+    for (int32_t i = 0; i < count && result == EXIT_DONE; i++) {
+        multiplied *m = &a->multiplied[i];
+        const char *beside = results[i].frame.image.channels[0].name;
+        result = find_multiplied(s, input, view_in_file(results, count, i), m, r);
+        a->first[i] = a->count;
+        a->additions[a->count++] = (io_addition){.beside = beside,
+                                                 .name = results[i].channel,
+                                                 .is_added = s->append,
+                                                 .multiplied_count = m->count,
+                                                 .multiplied = m->list};
+        if (s->append && s->common.options.bent_normal)
+            add_bent_normals(&results[i], beside, a);
+    }
     return result;
 }
 
 int append_check(const ao_settings *s, const char *input, const ao_result *results,
                  int32_t count, report *r)
 {
-    multiplied *names = NULL;
-    io_addition additions[MAX_VIEWS];
+    appended *a = NULL;
     if (!append_is_wanted(s))
         return EXIT_DONE;
     if (!io_keeps_windows(input)) {
@@ -251,37 +276,38 @@ int append_check(const ao_settings *s, const char *input, const ao_result *resul
                      input);
         return EXIT_FAILED;
     }
-    int result = make_additions(s, input, results, count, additions, &names, r);
+    int result = make_additions(s, input, results, count, &a, r);
     const io_append_options options = options_of(s);
     const crv_logger quiet = report_errors_only(r);
     if (result == EXIT_DONE
-        && io_append_check(input, additions, count, &options, &quiet) != 0)
+        && io_append_check(input, a->additions, a->count, &options, &quiet) != 0)
         result = EXIT_FAILED;
-    free(names);
+    free(a);
     return result;
 }
 
 int append_write(const ao_settings *s, const char *input, const char *output,
                  const ao_result *results, int32_t count, report *r)
 {
-    multiplied *names = NULL;
-    io_addition additions[MAX_VIEWS];
+    appended *a = NULL;
     io_image factors[MAX_VIEWS] = {{0}};
-    int result = make_additions(s, input, results, count, additions, &names, r);
+    int result = make_additions(s, input, results, count, &a, r);
     const io_append_options options = options_of(s);
     for (int32_t i = 0; i < count && result == EXIT_DONE; i++) {
-        additions[i].picture = &results[i].ao;
-        additions[i].made = results[i].ao.made;
+        const int32_t end = i + 1 < count ? a->first[i + 1] : a->count;
+        for (int32_t k = a->first[i]; k < end; k++)
+            a->additions[k].picture = &results[i].ao;
+        a->additions[a->first[i]].made = results[i].ao.made;
         if (s->albedo) {
             result = make_factors(s, input, &results[i], view_in_file(results, count, i),
                                   &factors[i], r);
-            additions[i].factors = &factors[i];
+            a->additions[a->first[i]].factors = &factors[i];
         }
     }
     if (result == EXIT_DONE)
-        result = output_append(input, output, additions, count, &options, r);
+        result = output_append(input, output, a->additions, a->count, &options, r);
     for (int32_t i = 0; i < count; i++)
         io_image_free(&factors[i]);
-    free(names);
+    free(a);
     return result;
 }

@@ -17,8 +17,11 @@ const char *append_channel(const ao_settings *s);
 
 /* The result of one view of a frame. */
 typedef struct ao_result {
-    const char *view;           /* "" without --views */
-    char channel[IO_NAME_SIZE]; /* the name of its channel in the copy */
+    const char *view;              /* "" without --views */
+    char channel[IO_NAME_SIZE];    /* the name of its channel in the copy */
+    char bent_layer[IO_NAME_SIZE]; /* that of its bent normals */
+    bent_space bent_space;
+    const char *bent_output; /* their own picture, or "" */
     io_frame frame;
     io_image ao; /* its `made` says how it was made */
 } ao_result;

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 void facts_compare(frame_facts *first, const io_frame *frame, const char *path, report *r)
 {
@@ -69,6 +70,7 @@ int facts_fill_display(io_image *ao, report *r)
     io_copy_window(ao, ao->channels[0].data, &whole, whole.channels[0].data);
     whole.pixel_aspect = ao->pixel_aspect;
     whole.camera = ao->camera;
+    memcpy(whole.made, ao->made, sizeof whole.made);
     io_image_free(ao);
     *ao = whole;
     return EXIT_DONE;

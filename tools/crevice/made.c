@@ -69,6 +69,10 @@ void made_describe(const ao_settings *s, const crv_options *o, float vfov_rad,
         append(made, " receive=%s", s->receive);
     if (s->occlude)
         append(made, " occlude=%s", s->occlude);
+    if (s->bent.space.given)
+        append(made, " bent-space=%d", (int)s->bent.space.value);
+    if (s->bent_channel)
+        append(made, " bent-channel=%s", s->bent_channel);
     if (append_is_wanted(s))
         append(made, " append=%d channel=%s apply=%s tint=%.9g,%.9g,%.9g", s->append,
                append_channel(s), s->apply ? s->apply : "", s->tint.value[0],
@@ -83,6 +87,8 @@ void made_add_state(char made[IO_MADE_SIZE], const made_state *state)
     append(made, " radius=%.9g reading=%d encoding=%d",
            state->has_radius ? (double)state->radius : 0.0, state->reading,
            (int)state->encoding);
+    if (state->bent_space)
+        append(made, " bent=%s", state->bent_space);
 }
 
 /* Reads the value behind " NAME=" and goes on behind it. */
@@ -111,7 +117,8 @@ bool made_matches(const char *settings, const char *made, made_state *state)
     made += length;
     if (!read_value(&made, " radius=", &radius)
         || !read_value(&made, " reading=", &reading)
-        || !read_value(&made, " encoding=", &encoding) || *made != '\0'
+        || !read_value(&made, " encoding=", &encoding)
+        || (*made != '\0' && strncmp(made, " bent=", 6) != 0)
         || !(radius >= 0.0 && radius <= 1e30 && reading >= 0.0 && reading <= 1e6
              && encoding >= 0.0 && encoding <= 100.0))
         return false;

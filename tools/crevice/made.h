@@ -14,6 +14,7 @@ typedef struct made_state {
     float radius;    /* scene units */
     int reading;     /* io_passes_request.usual_reading */
     crv_depth_encoding encoding;
+    const char *bent_space; /* of the bent normals, or NULL; not read back */
 } made_state;
 
 /* Whatever of the settings changes the result, so that two results can be told apart.

@@ -10,8 +10,9 @@
  * code. */
 int masks_take_out(const ao_settings *s, const char *input, io_frame *frame, report *r);
 
-/* Opens what does not receive; partly covered pixels in part. Returns an exit code. */
+/* Opens what does not receive, and turns its bent normals to the normals that the
+ * G-buffer holds; partly covered pixels in part. Returns an exit code. */
 int masks_open(const ao_settings *s, const char *input, const io_frame *frame,
-               io_image *ao, report *r);
+               crv_gbuffer *gbuffer, io_image *ao, report *r);
 
 #endif

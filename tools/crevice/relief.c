@@ -30,27 +30,14 @@ static const arg relief_rows[] = {
 };
 const arg_table relief_table = ARG_TABLE("Relief", relief_rows);
 
-static bool reads_relief(const crv_method *method)
-{
-    return crv_option_applies(crv_option_find("characteristic"), method, NULL) != 0;
-}
-
-static int wrong_method(const crv_method *method, report *r)
-{
-    char names[256] = "";
-    size_t used = 0;
-    for (int32_t i = 0; i < crv_method_count() && used < sizeof names; i++)
-        if (reads_relief(crv_method_at(i)))
-            used += (size_t)snprintf(names + used, sizeof names - used, "%s--method %s",
-                                     used == 0 ? "" : " or ", crv_method_at(i)->name);
-    report_error(r, "--height-map: is not read by %s; give %s", method->name, names);
-    return EXIT_USAGE;
-}
-
 int relief_check(const render_settings *s, report *r)
 {
-    if (s->height_map && !reads_relief(s->view.common.options.method))
-        return wrong_method(s->view.common.options.method, r);
+    if (s->height_map) {
+        const int result = estimate_check_method("--height-map", "characteristic",
+                                                 s->view.common.options.method, r);
+        if (result != EXIT_DONE)
+            return result;
+    }
     if (s->height_map && s->height_scale.given)
         return EXIT_DONE;
     if (s->height_map)

@@ -3,6 +3,7 @@
 #ifndef TOOL_RENDER_H
 #define TOOL_RENDER_H
 
+#include "bent.h"
 #include "io.h"
 #include "common/view.h"
 
@@ -15,6 +16,7 @@ typedef struct render_settings {
     const char *lit, *unlit;
     arg_int bits, aa;
     bool half;
+    bent_settings bent;
     const char *height_map;
     arg_number height_scale;
     arg_int height_wrap;

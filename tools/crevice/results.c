@@ -20,8 +20,11 @@ static void place(ao_result *result, const char *made, const made_state *state)
     ao->display_height = frame->image.display_height;
     ao->pixel_aspect = frame->image.pixel_aspect;
     ao->camera = frame->image.camera;
+    made_state own = *state;
+    if (bent_is_there(ao))
+        own.bent_space = bent_spaces[result->bent_space];
     snprintf(ao->made, sizeof ao->made, "%s", made);
-    made_add_state(ao->made, state);
+    made_add_state(ao->made, &own);
 }
 
 static bool same_windows(const io_image *a, const io_image *b)
@@ -31,15 +34,32 @@ static bool same_windows(const io_image *a, const io_image *b)
            && a->display_height == b->display_height;
 }
 
-/* One picture with a channel for each view. */
+/* The channels of all views, with bent normals if there are any. Returns how many. */
+static int32_t name_channels(const ao_result *results, int32_t count,
+                             char texts[MAX_VIEWS * 4][IO_NAME_SIZE],
+                             const char *names[MAX_VIEWS * 4])
+{
+    int32_t total = 0;
+    for (int32_t i = 0; i < count; i++)
+        for (int32_t k = 0; k < results[i].ao.channel_count; k++, total++) {
+            if (k)
+                bent_name(results[i].bent_layer, k, texts[total]);
+            else
+                snprintf(texts[total], IO_NAME_SIZE, "%s", results[i].channel);
+            names[total] = texts[total];
+        }
+    return total;
+}
+
+/* One picture with the channels of each view. */
 static int write_views(const char *output, const ao_result *results, int32_t count,
                        const io_write_options *options, report *r)
 {
-    const char *names[MAX_VIEWS] = {0};
+    char texts[MAX_VIEWS * 4][IO_NAME_SIZE];
+    const char *names[MAX_VIEWS * 4];
     io_image all = {0};
     const io_image *first = &results[0].ao;
     for (int32_t i = 0; i < count; i++) {
-        names[i] = results[i].channel;
         if (!same_windows(first, &results[i].ao)) {
             report_error(r,
                          "%s: its views have different windows; write a file for each, "
@@ -48,14 +68,16 @@ static int write_views(const char *output, const ao_result *results, int32_t cou
             return EXIT_FAILED;
         }
     }
-    if (io_image_init(&all, first->width, first->height, names, count, &r->logger) != 0)
+    const int32_t total = name_channels(results, count, texts, names);
+    if (io_image_init(&all, first->width, first->height, names, total, &r->logger) != 0)
         return EXIT_FAILED;
     io_image described = *first;
     described.channels = all.channels;
-    described.channel_count = count;
+    described.channel_count = total;
     described.camera = (io_camera_metadata){0}; /* each view has its own */
-    for (int32_t i = 0; i < count; i++)
-        memcpy(all.channels[i].data, results[i].ao.channels[0].data,
+    const int32_t each = first->channel_count;
+    for (int32_t i = 0; i < total; i++)
+        memcpy(all.channels[i].data, results[i / each].ao.channels[i % each].data,
                (size_t)first->width * (size_t)first->height * sizeof(float));
     const int result = output_write(output, &described, options, r);
     io_image_free(&all);
@@ -73,15 +95,22 @@ int results_write(const ao_settings *s, const char *input, const char *output,
         if (s->aa.value > 1
             && shrink(&results[i].frame, s->aa.value, &results[i].ao, r) != EXIT_DONE)
             return EXIT_FAILED;
+        if (results[i].bent_output[0]
+            && bent_write(results[i].bent_output, &results[i].ao, &options, r)
+                   != EXIT_DONE)
+            return EXIT_FAILED;
     }
     if (append_is_wanted(s))
         return append_write(s, input, output, results, count, r);
     if (count > 1)
         return write_views(output, results, count, &options, r);
-    /* Formats without windows get the whole picture. */
-    if (!io_keeps_windows(output) && facts_fill_display(&results->ao, r) != EXIT_DONE)
+    if (io_keeps_windows(output))
+        return output_write(output, &results->ao, &options, r);
+    /* Formats without windows get the whole picture, of one channel. */
+    if (facts_fill_display(&results->ao, r) != EXIT_DONE)
         return EXIT_FAILED;
-    return output_write(output, &results->ao, &options, r);
+    const io_image alone = bent_left_out(&results->ao);
+    return output_write(output, &alone, &options, r);
 }
 
 void results_free(ao_result *results, int32_t count)

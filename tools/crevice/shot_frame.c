@@ -10,6 +10,27 @@
 #include "results.h"
 #include "shrink.h"
 
+/* Turns bent normals to the space that is wanted. */
+static int choose_space(const ao_settings *s, const char *input, ao_result *result,
+                        report *r)
+{
+    const io_frame *frame = &result->frame;
+    const bool given = s->bent.space.given;
+    const bool world =
+        given ? s->bent.space.value == BENT_WORLD : frame->normals_in_world;
+    if (given && world && !frame->has_world) {
+        report_error(r,
+                     "%s: does not say how its camera is turned, which --bent-space "
+                     "world needs; give --camera FILE, or --bent-space view",
+                     input);
+        return EXIT_FAILED;
+    }
+    if (!given || world)
+        bent_turn(&result->ao, given ? frame->world_to_view : frame->normals_to_view);
+    result->bent_space = world ? BENT_WORLD : BENT_VIEW;
+    return EXIT_DONE;
+}
+
 /* The result of the view at hand. so_far: those of the frame that will be written with
  * it, itself included. */
 static int compute(shot *t, const frame_paths *paths, ao_result *result, int32_t so_far,
@@ -18,6 +39,8 @@ static int compute(shot *t, const frame_paths *paths, ao_result *result, int32_t
     const char *input = paths->input;
     result->view = t->view;
     shot_name_channel(t, result->channel);
+    shot_name_bent(t, result->bent_layer);
+    result->bent_output = paths->bent;
     int code = shot_load(t, paths, &result->frame, r);
     if (code == EXIT_DONE)
         code = append_check(t->settings, input, result + 1 - so_far, so_far, r);
@@ -36,7 +59,10 @@ static int compute(shot *t, const frame_paths *paths, ao_result *result, int32_t
     if (code == EXIT_DONE)
         code = facts_check_surface(&t->estimator, &result->ao, input, r);
     if (code == EXIT_DONE)
-        code = masks_open(t->settings, input, &result->frame, &result->ao, r);
+        code = masks_open(t->settings, input, &result->frame, t->estimator.gbuffer,
+                          &result->ao, r);
+    if (code == EXIT_DONE && bent_is_there(&result->ao))
+        code = choose_space(t->settings, input, result, r);
     return code;
 }
 
@@ -67,10 +93,12 @@ static int prepare(shot *t, const int32_t *number, frame_paths paths[MAX_VIEWS],
                           : shot_name_single(t, &paths[i], r);
         if (code == EXIT_DONE)
             code = output_check(paths[i].output, paths[i].input, r);
+        if (code == EXIT_DONE && paths[i].bent[0])
+            code = output_check(paths[i].bent, paths[i].input, r);
         if (code != EXIT_DONE)
             return code;
         if (i == 0 || !shot_is_together(t))
-            *is_there = *is_there && shot_is_done(t, paths[i].output, r);
+            *is_there = *is_there && shot_is_done(t, &paths[i], r);
     }
     return EXIT_DONE;
 }

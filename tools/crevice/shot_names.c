@@ -2,6 +2,7 @@
 /* shot_names.c: what files and channels of a shot are called. */
 #include "shot_state.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "common/frame_camera.h"
@@ -20,9 +21,13 @@ int shot_name_frame(const shot *t, int32_t frame, frame_paths *paths, report *r)
     const ao_settings *s = t->settings;
     paths->has_number = true;
     paths->number = frame;
+    paths->bent[0] = '\0';
     if (frames_name(s->input, frame, paths->input, sizeof paths->input)
         && frames_name(s->output, frame, paths->output, sizeof paths->output)
-        && name_view(t, paths->input) && name_view(t, paths->output))
+        && name_view(t, paths->input) && name_view(t, paths->output)
+        && (!s->bent.output
+            || (frames_name(s->bent.output, frame, paths->bent, sizeof paths->bent)
+                && name_view(t, paths->bent))))
         return EXIT_DONE;
     report_error(r, "--frames: the names of frame %d are too long", (int)frame);
     return EXIT_USAGE;
@@ -32,7 +37,10 @@ int shot_name_single(const shot *t, frame_paths *paths, report *r)
 {
     const ao_settings *s = t->settings;
     const bool fits = views_name(s->input, t->view, paths->input, sizeof paths->input);
-    if (fits && views_name(s->output, t->view, paths->output, sizeof paths->output)) {
+    paths->bent[0] = '\0';
+    if (fits && views_name(s->output, t->view, paths->output, sizeof paths->output)
+        && (!s->bent.output
+            || views_name(s->bent.output, t->view, paths->bent, sizeof paths->bent))) {
         paths->has_number = frame_camera_number(paths->input, &paths->number);
         return EXIT_DONE;
     }
@@ -60,4 +68,17 @@ void shot_name_channel(const shot *t, char channel[IO_NAME_SIZE])
 {
     views_channel(append_channel(t->settings), shot_is_together(t) ? t->view : "",
                   channel);
+}
+
+/* Beside the channel of accessibility. */
+void shot_name_bent(const shot *t, char layer[IO_NAME_SIZE])
+{
+    const ao_settings *s = t->settings;
+    const char *view = shot_is_together(t) ? t->view : "";
+    const char *channel = append_is_wanted(s) ? append_channel(s) : "AO";
+    const char *dot = strrchr(channel, '.');
+    char beside[IO_NAME_SIZE];
+    snprintf(beside, sizeof beside, "%.*sbent", dot ? (int)(dot + 1 - channel) : 0,
+             channel);
+    views_channel(s->bent_channel ? s->bent_channel : beside, view, layer);
 }

@@ -27,11 +27,12 @@ static bool is_same_radius(const shot *t, const made_state *state)
 }
 
 /* Whether a result is there, whole, and made with these settings. */
-bool shot_is_done(shot *t, const char *output, report *r)
+bool shot_is_done(shot *t, const frame_paths *paths, report *r)
 {
+    const char *output = paths->output;
     char made[IO_MADE_SIZE], channel[IO_NAME_SIZE];
     made_state state;
-    if (!file_exists(output))
+    if (!file_exists(output) || (paths->bent[0] && !file_exists(paths->bent)))
         return false;
     shot_name_channel(t, channel);
     const bool whole =

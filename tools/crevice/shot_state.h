@@ -37,6 +37,7 @@ typedef struct frame_paths {
     bool has_number;
     int32_t number;
     char input[PATH_SIZE], output[PATH_SIZE];
+    char bent[PATH_SIZE]; /* of --bent-output, or "" */
 } frame_paths;
 
 /* From here on the passes of this view are read, and names are those of its files. */
@@ -48,10 +49,12 @@ int shot_name_single(const shot *t, frame_paths *paths, report *r);
 bool shot_is_together(const shot *t);
 /* The name of the channel of the view at hand. */
 void shot_name_channel(const shot *t, char channel[IO_NAME_SIZE]);
+/* The name of the layer of bent normals of the view at hand. */
+void shot_name_bent(const shot *t, char layer[IO_NAME_SIZE]);
 
 /* Whether a result is there, whole, and made with these settings; then its state is taken
  * up. */
-bool shot_is_done(shot *t, const char *output, report *r);
+bool shot_is_done(shot *t, const frame_paths *paths, report *r);
 /* With --skip-existing: takes up the state of the first result that is there. */
 int shot_find_made_state(shot *t, report *r);
 

@@ -22,12 +22,12 @@ static int32_t divide(int32_t a, int32_t n)
     return a >= 0 ? a / n : -((n - 1 - a) / n);
 }
 
-/* The mean over the block of the result's pixel (x, y), in the display window of the
- * result. */
-static float mean(const io_frame *frame, const io_image *ao, int32_t n, int32_t x,
-                  int32_t y)
+/* The mean of a channel over the block of the result's pixel (x, y), in the display
+ * window of the result. */
+static double mean(const io_frame *frame, const io_image *ao, int32_t channel, int32_t n,
+                   int32_t x, int32_t y)
 {
-    const float *depth = frame->depth[0].data, *values = ao->channels[0].data;
+    const float *depth = frame->depth[0].data, *values = ao->channels[channel].data;
     double sum = 0.0;
     int32_t count = 0;
     for (int32_t row = y * n - ao->data_y; row < (y + 1) * n - ao->data_y; row++)
@@ -42,23 +42,41 @@ static float mean(const io_frame *frame, const io_image *ao, int32_t n, int32_t 
             sum += (double)values[(size_t)row * (size_t)ao->width + (size_t)i];
             count++;
         }
-    return count ? (float)(sum / count) : 1.0f;
+    if (count)
+        return sum / count;
+    return channel ? 0.0 : 1.0;
+}
+
+/* Of bent normals the mean is made a direction again. */
+static void store_means(const io_frame *frame, const io_image *ao, int32_t n, int32_t x,
+                        int32_t y, const io_image *to, size_t at)
+{
+    double length = 0.0, value[4];
+    for (int32_t k = 0; k < ao->channel_count; k++) {
+        value[k] = mean(frame, ao, k, n, x, y);
+        length += k ? value[k] * value[k] : 0.0;
+    }
+    for (int32_t k = 0; k < ao->channel_count; k++)
+        to->channels[k].data[at] =
+            (float)(k && length > 0.0 ? value[k] / sqrt(length) : value[k]);
 }
 
 int shrink(const io_frame *frame, int32_t n, io_image *ao, report *r)
 {
-    static const char *const names[] = {"AO"};
+    const char *names[4] = {NULL};
     const int32_t x0 = divide(ao->data_x, n), y0 = divide(ao->data_y, n);
     const int32_t x1 = divide(ao->data_x + ao->width - 1, n) + 1;
     const int32_t y1 = divide(ao->data_y + ao->height - 1, n) + 1;
     io_image small = {0};
-    if (io_image_init(&small, x1 - x0, y1 - y0, names, 1, &r->logger) != 0)
+    for (int32_t k = 0; k < ao->channel_count; k++)
+        names[k] = ao->channels[k].name;
+    if (io_image_init(&small, x1 - x0, y1 - y0, names, ao->channel_count, &r->logger)
+        != 0)
         return EXIT_FAILED;
     for (int32_t y = y0; y < y1; y++)
         for (int32_t x = x0; x < x1; x++)
-            small.channels[0]
-                .data[(size_t)(y - y0) * (size_t)small.width + (size_t)(x - x0)] =
-                mean(frame, ao, n, x, y);
+            store_means(frame, ao, n, x, y, &small,
+                        (size_t)(y - y0) * (size_t)small.width + (size_t)(x - x0));
     io_image described = *ao;
     described.channels = small.channels;
     described.width = small.width;

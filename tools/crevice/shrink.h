@@ -11,7 +11,8 @@
 int shrink_check(const io_frame *frame, int32_t n, const char *path, report *r);
 
 /* Shrinks the result of a frame, whose windows are set, to 1/n: each pixel is the mean of
- * those of its n x n that show a surface, 1 if none does. Returns an exit code. */
+ * those of its n x n that show a surface, 1 if none does, and of bent normals no
+ * direction. Returns an exit code. */
 int shrink(const io_frame *frame, int32_t n, io_image *ao, report *r);
 
 #endif

@@ -44,6 +44,7 @@ const char *views_mistake(const ao_settings *s, view_list *out)
     *out = (view_list){.count = 1};
     if (!s->views)
         return views_have_place(s->input) || places
+                       || (s->bent.output && views_have_place(s->bent.output))
                    ? "--views: is missing for a name with %V in it; add --views "
                      "left,right"
                    : NULL;
@@ -53,6 +54,9 @@ const char *views_mistake(const ao_settings *s, view_list *out)
     if (s->passes.depth || (s->passes.normal && strcmp(s->passes.normal, "none") != 0))
         return "--views: finds the passes of each view by their names; leave out --depth "
                "and --normal";
+    if (s->bent.output && out->count > 1
+        && (!views_have_place(s->bent.output) || is_shared(s->bent.output, out)))
+        return "--bent-output: needs a file for each view; name it with %V";
     if (places && is_shared(s->output, out))
         return "-o: two views have one file name; use %V instead of %v";
     if (!places && out->count > 1 && !io_keeps_windows(s->output))
