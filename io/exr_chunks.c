@@ -3,6 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
 #include "exr.h"
 
 /* No lossless method of EXR packs tighter (deflate: 1032 to 1). More is a forged size. */
@@ -280,25 +284,47 @@ static void read_chunk_number(reading *r, int32_t number, exr_decode_pipeline_t 
     }
 }
 
+static void tell(const io__exr *exr, int32_t done, int32_t count)
+{
+    const io_watch *watch = exr->file->watch;
+    if (watch)
+        watch->tell(watch->user, (double)done / (double)count);
+}
+
+static bool is_calling_thread(void)
+{
+#ifdef _OPENMP
+    return omp_get_thread_num() == 0;
+#else
+    return true;
+#endif
+}
+
 int io__exr_read_part(io__exr *exr, int part, float *const *targets)
 {
     reading r = {.exr = exr, .part = part, .targets = targets};
     if (find_layout(exr, part, &r.layout))
         return -1;
     const int32_t count = r.layout.columns * r.layout.rows;
+    int32_t done = 0;
     r.failed = count;
     IO__OMP(parallel)
     {
         exr_decode_pipeline_t decode = EXR_DECODE_PIPELINE_INITIALIZER;
         IO__OMP_FOR(schedule(dynamic))
         for (int32_t i = 0; i < count; i++) {
-            int32_t failed;
+            int32_t failed, now;
             IO__OMP(atomic read)
             failed = r.failed;
             if (i < failed)
                 read_chunk_number(&r, i, &decode);
+            IO__OMP(atomic capture)
+            now = ++done;
+            if (is_calling_thread())
+                tell(exr, now, count);
         }
         exr_decoding_destroy(exr->context, &decode);
     }
+    tell(exr, count, count);
     return r.code ? fail_decode(exr, r.code) : 0;
 }

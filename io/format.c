@@ -115,12 +115,19 @@ int io_probe(const char *path, io_image *out, const crv_logger *log)
 int io_read(const char *path, const char *const *names, int32_t count, io_image *out,
             const crv_logger *log)
 {
+    return io_read_watched(path, names, count, NULL, out, log);
+}
+
+int io_read_watched(const char *path, const char *const *names, int32_t count,
+                    const io_watch *watch, io_image *out, const crv_logger *log)
+{
     io__file file;
     if (names && count < 1)
         return io__fail(log, path, "no channel was asked for; name at least one");
     if (io__file_open(path, log, &file))
         return -1;
     const io__format *format = recognise(&file);
+    file.watch = watch;
     const int result = format ? format->read(&file, names, count, out) : -1;
     fclose(file.stream);
     return result;

@@ -48,6 +48,7 @@ typedef struct io__file {
     FILE *stream;
     int64_t size;
     const crv_logger *log;
+    const io_watch *watch; /* of the reading; NULL: nobody */
 } io__file;
 
 /* fread() and fwrite() that go on after EINTR: fewer bytes than `size` are the end of the

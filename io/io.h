@@ -86,6 +86,17 @@ int io_probe(const char *path, io_image *out, const crv_logger *log);
 int io_read(const char *path, const char *const *names, int32_t count, io_image *out,
             const crv_logger *log);
 
+/* Who is told, now and then and in the calling thread, which share of the pixels of an EXR
+ * part is there. */
+typedef struct io_watch {
+    void (*tell)(void *user, double share);
+    void *user;
+} io_watch;
+
+/* The same; watch NULL: nobody is told. */
+int io_read_watched(const char *path, const char *const *names, int32_t count,
+                    const io_watch *watch, io_image *out, const crv_logger *log);
+
 typedef struct io_write_options {
     bool half;    /* EXR: half floats instead of floats. AO loses at most 5e-4 */
     int32_t bits; /* PNG: 8 (default, also for 0) or 16 */

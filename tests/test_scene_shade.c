@@ -255,6 +255,27 @@ static void test_default_light(void **state)
     assert_memory_equal(rgb, p->plain, sizeof rgb);
 }
 
+static void note_rows(void *user, int32_t rows)
+{
+    int32_t *last = user;
+    assert_int_equal(rows, *last + 1);
+    *last = rows;
+}
+
+static void test_rows_are_told(void **state)
+{
+    static float rgb[3 * PIXELS];
+    const picture *p = *state;
+    const crv_image image = crv_image_packed(rgb, WIDTH, HEIGHT, 3);
+    scene_lighting l = scene_lighting_default();
+    int32_t last = 0;
+    l.watch = note_rows;
+    l.user = &last;
+    assert_int_equal(scene_shade(p->scene, &p->gbuffer, &l, NULL, &image, 1, NULL), 0);
+    assert_int_equal(last, HEIGHT);
+    assert_memory_equal(rgb, p->plain, sizeof rgb);
+}
+
 static void test_refuses_other_sizes(void **state)
 {
     picture *p = *state;
@@ -305,6 +326,7 @@ int main(void)
                                        cmocka_unit_test(test_sky_turns_with_its_up),
                                        cmocka_unit_test(test_background_directions),
                                        cmocka_unit_test(test_default_light),
+                                       cmocka_unit_test(test_rows_are_told),
                                        cmocka_unit_test(test_refuses_other_sizes)};
     return cmocka_run_group_tests(tests, make_picture, free_picture);
 }

@@ -191,7 +191,7 @@ int io_frame_load(const char *path, const io_passes_request *request, io_frame *
     if (!result)
         result = io__choose_passes(path, &probed, request, &names, log);
     if (!result)
-        result = io__read_passes(path, &names, &frame.image, log);
+        result = io__read_passes(path, &names, request->watch, &frame.image, log);
     if (!result)
         result = set_desc(path, request, &frame.image, names.layers, &frame.desc, log);
     if (!result) {

@@ -72,6 +72,7 @@ typedef struct io_passes_request {
     /* Of stereo frames: the eye, NULL for any, and the names of all, with commas. */
     const char *view, *views;
     io_passes_remedies remedies;
+    const io_watch *watch; /* of the reading; NULL: nobody */
 } io_passes_request;
 
 typedef struct io_frame {

@@ -48,18 +48,18 @@ int32_t io__depth_channels(const io__pass_names *chosen)
     return chosen->position[0] ? 3 : chosen->layers;
 }
 
-int io__read_passes(const char *path, const io__pass_names *chosen, io_image *out,
-                    const crv_logger *log)
+int io__read_passes(const char *path, const io__pass_names *chosen, const io_watch *watch,
+                    io_image *out, const crv_logger *log)
 {
     const char *names[CRV_MAX_LAYERS + 3];
     int32_t count = io__depth_channels(chosen);
     memcpy(names, chosen->position[0] ? chosen->position : chosen->depth,
            (size_t)count * sizeof *names);
     if (!chosen->normal[0])
-        return io_read(path, names, count, out, log);
+        return io_read_watched(path, names, count, watch, out, log);
     for (int c = 0; c < 3; c++)
         names[count++] = chosen->normal[c];
-    if (!io_read(path, names, count, out, NULL))
+    if (!io_read_watched(path, names, count, watch, out, NULL))
         return 0;
     return read_apart(path, names, io__depth_channels(chosen), count, out, log);
 }

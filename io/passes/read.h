@@ -9,7 +9,7 @@
 int32_t io__depth_channels(const io__pass_names *chosen);
 
 /* Reads depth or positions, then normals. Returns 0, or -1 after an error line. */
-int io__read_passes(const char *path, const io__pass_names *chosen, io_image *out,
-                    const crv_logger *log);
+int io__read_passes(const char *path, const io__pass_names *chosen, const io_watch *watch,
+                    io_image *out, const crv_logger *log);
 
 #endif
