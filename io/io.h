@@ -86,8 +86,8 @@ int io_probe(const char *path, io_image *out, const crv_logger *log);
 int io_read(const char *path, const char *const *names, int32_t count, io_image *out,
             const crv_logger *log);
 
-/* Who is told, now and then and in the calling thread, which share of the pixels of an EXR
- * part is there. */
+/* Who is told, now and then and in the calling thread, which share of the pixels is
+ * there, from 0 to 1; EXR files only, each part by itself. */
 typedef struct io_watch {
     void (*tell)(void *user, double share);
     void *user;

@@ -77,6 +77,10 @@ rm long.exr.checkpoint
 # shellcheck disable=SC2086
 ends_soon '^G-buffer: about ' '' gbuffer builtin:courtyard $out --size 6000x4000 --layers 4
 
+# A measurement of which each run takes long.
+ends_soon '^containment: about ' '' bench builtin:courtyard --threads 1 --size 640x360 \
+    --method containment --set samples=4000 --isa scalar
+
 # A comparison, too.
 printf 'Pf\n6000 4000\n-1.0\n' >big.pfm
 dd if=/dev/zero bs=1000000 count=96 2>/dev/null >>big.pfm

@@ -109,6 +109,10 @@ typedef struct bench_outcome {
 int bench_measure(const bench_settings *s, const bench_clock *clock, const bench_case *c,
                   report *r, bench_outcome *out);
 
+/* About how many seconds a run takes, 0 if that cannot be told. pixels: of the result's
+ * size; they are overwritten. */
+double bench_trial(const bench_case *c, crv_context *context, float *pixels);
+
 /* The row of the JSON. */
 cJSON *bench_row(const bench_settings *s, const bench_case *c, const bench_outcome *o);
 

@@ -5,6 +5,7 @@
 
 #include "bench/bench.h"
 #include "common/device.h"
+#include "common/progress.h"
 #include "system/memory.h"
 
 enum { STEP_RUNS_MAX = 64 };
@@ -128,6 +129,10 @@ int bench_measure(const bench_settings *s, const bench_clock *clock, const bench
         w->of = c;
         w->on_device = !device_is_cpu(&s->common) && !c->filter_only;
         w->image = crv_image_packed(pixels, c->scene->width, c->scene->height, 1);
+        if (device_is_cpu(&s->common))
+            progress_announce(
+                r, c->filter_only ? c->options.filter->name : c->options.method->name,
+                bench_trial(c, context, pixels));
         result = run_case(clock, context, &m, w, r, out);
     }
     if (w) {
