@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Which room of libcrevice may use whose functions and tables: what the linker sees, where
-check_arrows.py sees what is included. Usage: check_symbols.py NM LIST; LIST is a file that
+check_arrows.py sees what is included. And what no room may: variables that calls share,
+functions that open files, read the environment, print, set the locale or end the process. Usage: check_symbols.py NM LIST; LIST is a file that
 names the library's objects, one a line. Exits 1 and lists what breaks a rule."""
 import re
 import subprocess
@@ -23,6 +24,14 @@ ROOMS = {
 TABLES = {"core": re.compile(r"crv__(method|filter)_\w+$|crv__backends$")}
 
 
+FORBIDDEN = re.compile(r"(f?open(64)?|openat|creat|getenv|secure_getenv|socket|connect|system"
+                       r"|popen|fork|exec\w+|(_|quick_)?exit|_Exit|abort|raise|kill|signal"
+                       r"|sigaction|setlocale|printf|puts|putchar|fputs|fwrite|stdout|stderr"
+                       r"|rand|srand|strtok)$")
+# What the linker may write to; tables of pointers lie in .data.rel.ro.
+VARIABLES = re.compile(r"\.(data|bss|tdata|tbss|lbss|ldata)(\.(?!rel\.ro).*)?$|\*COM\*$")
+
+
 def room_of(path):
     """The room of an object file, from the part of its path that names its source."""
     if "crevice_kernels_" in path:
@@ -41,6 +50,14 @@ def symbols_of(nm, path):
     return defined, wanted
 
 
+def variables_of(nm, path):
+    """Names of what can be written to: the last of nm's columns is the section."""
+    lines = subprocess.run([nm, "-f", "sysv", path], check=True, capture_output=True,
+                           text=True).stdout.splitlines()
+    rows = [[cell.strip() for cell in line.split("|")] for line in lines if "|" in line]
+    return [row[0] for row in rows if VARIABLES.match(row[-1]) and row[3] == "OBJECT"]
+
+
 def main(nm, paths):
     faults = 0
     homes = {}
@@ -54,6 +71,12 @@ def main(nm, paths):
         defined, wanted = symbols_of(nm, path)
         homes.update((name, room) for name in defined)
         wants.append((path, room, wanted))
+        for name in variables_of(nm, path):
+            print(f"{path}: has a variable {name}, which all calls would share")
+            faults += 1
+        for name in sorted(filter(FORBIDDEN.match, wanted)):
+            print(f"{path}: calls {name}(), which a library may not")
+            faults += 1
     arrows = 0
     for path, room, wanted in wants:
         for name in sorted(wanted & homes.keys()):
