@@ -7,7 +7,8 @@
 extern const struct crv__method reference_method_bitmask;
 #include "methods/bitmask.c"
 
-float reference_bitmask(const crv__frame *f, int32_t x, int32_t y, float radius_px)
+float reference_bitmask(const crv__frame *f, int32_t x, int32_t y, float radius_px,
+                        crv__vec3 *bent)
 {
-    return reference_slices_open(f, x, y, radius_px, blocked_share);
+    return reference_slices_open(f, x, y, radius_px, blocked_share, bent);
 }

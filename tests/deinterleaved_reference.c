@@ -287,7 +287,19 @@ static int has_structure(const simd_case *c)
            && table <= (2 << 20); /* more only where the picture is large */
 }
 
-static float value_at(reference *s, int32_t x, int32_t y, int structure, int *has_bucket)
+/* With the specification's own samples. */
+static float exact_at(const reference *s, int32_t x, int32_t y, crv__vec3 *bent)
+{
+    const crv__method *method = crv__method_of(s->c->options.method);
+    if (!bent)
+        return method->accessibility(&s->frame, x, y);
+    const crv__estimate e = method->estimate(&s->frame, x, y);
+    *bent = e.bent;
+    return e.accessibility;
+}
+
+static float value_at(reference *s, int32_t x, int32_t y, int structure, int *has_bucket,
+                      crv__vec3 *bent)
 {
     const char *name = s->c->options.method->name;
     float a = 1;
@@ -299,11 +311,11 @@ static float value_at(reference *s, int32_t x, int32_t y, int structure, int *ha
                               / scale_of(s, (x + s->left) % PHASES, (y + s->top) % PHASES)
                         : 0;
         if (!*has_bucket)
-            a = crv__method_of(s->c->options.method)->accessibility(&s->frame, x, y);
+            a = exact_at(s, x, y, bent);
         else if (strcmp(name, "bitmask") == 0)
-            a = reference_bitmask(&s->frame, x, y, radius);
+            a = reference_bitmask(&s->frame, x, y, radius, bent);
         else if (strcmp(name, "gtao") == 0)
-            a = reference_gtao(&s->frame, x, y, radius);
+            a = reference_gtao(&s->frame, x, y, radius, bent);
         else if (strcmp(name, "vo") == 0)
             a = vo(s, x, y, radius);
         else
@@ -359,8 +371,9 @@ static void cut_depth(reference *s)
     }
 }
 
-static void fill_result(reference *s, float *out, int32_t *structured)
+static void fill_result(reference *s, float *out, float *bents, int32_t *structured)
 {
+    const bool with_bent = s->c->options.bent_normal;
     const crv_gbuffer_desc *d = &s->c->desc;
     const int structure = has_structure(s->c);
     const crv__params *p = &s->params;
@@ -373,8 +386,12 @@ static void fill_result(reference *s, float *out, int32_t *structured)
     for (int32_t y = d->guard_top; y < d->height - d->guard_bottom; y++) {
         for (int32_t x = d->guard_left; x < d->width - d->guard_right; x++) {
             int has_bucket;
-            *out++ = value_at(s, x, y, structure, &has_bucket);
+            crv__vec3 bent = {NAN, NAN, NAN};
+            *out++ = value_at(s, x, y, structure, &has_bucket, with_bent ? &bent : NULL);
             *structured += has_bucket;
+            if (with_bent)
+                memcpy(bents, &bent, sizeof bent);
+            bents += with_bent ? 3 : 0;
         }
     }
 }
@@ -386,7 +403,10 @@ float *deinterleaved_reference(const simd_case *c, int32_t *structured)
                    .left = wrapped(d->origin_x - d->guard_left, SPAN),
                    .top = wrapped(d->origin_y - d->guard_top, PHASES)};
     crv_context *context = NULL;
-    float *out = malloc((size_t)d->width * (size_t)d->height * sizeof *out);
+    const int32_t width = d->width - d->guard_left - d->guard_right,
+                  height = d->height - d->guard_top - d->guard_bottom;
+    const size_t count = (size_t)width * (size_t)height;
+    float *out = malloc((c->options.bent_normal ? 4 : 1) * count * sizeof *out);
     crv_gbuffer *g =
         crv_context_create(NULL, &context) == CRV_OK ? make_gbuffer(c, context) : NULL;
     *structured = 0;
@@ -406,7 +426,7 @@ float *deinterleaved_reference(const simd_case *c, int32_t *structured)
                                .directions = setup.directions,
                                .pattern = setup.pattern};
         fill_map(&s, &setup, &map);
-        fill_result(&s, out, structured);
+        fill_result(&s, out, out + count, structured);
         crv__setup_release(&setup);
         crv__plane_destroy(&map, &context->allocator);
     }

@@ -8,9 +8,9 @@
 /*
  * What the deinterleaved structure computes for a case without a filter: the scalar
  * methods with the projected radius that a pixel shares with its group. Packed like
- * simd_run()'s result; the caller frees it. *structured: how many pixels had a bucket; 0
- * where the structure is not used at all, and everything is exact. NULL where memory is
- * out.
+ * simd_run()'s result; bent normals are NaN where there is no surface. The caller frees
+ * it. *structured: how many pixels had a bucket; 0 where the structure is not used at
+ * all, and everything is exact. NULL where memory is out.
  */
 float *deinterleaved_reference(const simd_case *c, int32_t *structured);
 

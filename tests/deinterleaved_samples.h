@@ -36,15 +36,19 @@ static inline bool reference_slice_texel(const crv__params *p,
 
 /* crv__slices_open() with slices of another radius' length. */
 static inline float reference_slices_open(const crv__frame *f, int32_t x, int32_t y,
-                                          float radius_px, crv__slice_fn blocked_share)
+                                          float radius_px, crv__slice_fn blocked_share,
+                                          crv__vec3 *bent)
 {
     crv__slice_site site = crv__slice_site_at(f, x, y);
     site.nearness = radius_px * f->params->inv_radius * f->params->inv_fy;
-    return crv__slices_of(f, &site, blocked_share, NULL);
+    return crv__slices_of(f, &site, blocked_share, bent);
 }
 
-/* The accessibility of a pixel with this projected radius (vertically). */
-float reference_gtao(const crv__frame *f, int32_t x, int32_t y, float radius_px);
-float reference_bitmask(const crv__frame *f, int32_t x, int32_t y, float radius_px);
+/* The accessibility of a pixel with this projected radius (vertically), and its bent
+ * normal if bent is not NULL. */
+float reference_gtao(const crv__frame *f, int32_t x, int32_t y, float radius_px,
+                     crv__vec3 *bent);
+float reference_bitmask(const crv__frame *f, int32_t x, int32_t y, float radius_px,
+                        crv__vec3 *bent);
 
 #endif

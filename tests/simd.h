@@ -63,7 +63,8 @@ void simd_case_print(const simd_case *c);
 /*
  * Computes a case with one instruction set, the tiles in an order of its own. Every
  * memory block and every byte between the result's pixels is guarded. Returns the
- * result, packed, or NULL after a line about what went wrong. The caller frees it.
+ * result, packed, and behind it the bent normals if the options ask for them, or NULL
+ * after a line about what went wrong. The caller frees it.
  */
 float *simd_run(const simd_case *c, crv_isa isa);
 

@@ -101,8 +101,7 @@ static void random_options(simd_random *r, crv_options *options)
     for (int32_t i = 0; i < crv_option_count(); i++) {
         const crv_option *option = crv_option_at(i);
         char text[64];
-        /* noise_index: below, so that cases are those from before it. bent_normal: the
-         * run's own. */
+        /* noise_index, bent_normal: below, so that cases are those from before them. */
         if (strcmp(option->key, "radius") == 0 || strcmp(option->key, "noise_index") == 0
             || strcmp(option->key, "bent_normal") == 0
             || !crv_option_applies(option, options->method, options->filter))
@@ -116,6 +115,7 @@ static void random_options(simd_random *r, crv_options *options)
     }
     simd_random aside = *r;
     options->noise_index = simd_int(&aside, 0, 1 << 20);
+    options->bent_normal = options->method->bent_normal && simd_chance(&aside, 2);
     /* Without limits the shared code would hide the kernels' values. */
     if (simd_chance(r, 2))
         options->intensity = options->contrast = 1;

@@ -119,10 +119,10 @@ typedef struct canvas {
     crv_image image;
 } canvas;
 
-static canvas canvas_make(simd_random *r, int32_t width, int32_t height)
+static canvas canvas_make(simd_random *r, int32_t width, int32_t height, int32_t channels)
 {
-    canvas c = {.image = {.width = width, .height = height, .channels = 1}};
-    const ptrdiff_t pixel = simd_chance(r, 2) ? 4 : 4 * simd_int(r, 2, 4);
+    canvas c = {.image = {.width = width, .height = height, .channels = channels}};
+    const ptrdiff_t pixel = 4 * channels * (simd_chance(r, 2) ? 1 : simd_int(r, 2, 4));
     const ptrdiff_t row = pixel * width + 4 * simd_int(r, 0, 20);
     const int flipped = simd_chance(r, 3);
     c.size = (size_t)(row * height) + 2 * (size_t)GUARD;
@@ -144,9 +144,10 @@ static int canvas_take(canvas *c, float *out)
     const crv_image *image = &c->image;
     for (int32_t y = 0; y < image->height; y++) {
         for (int32_t x = 0; x < image->width; x++) {
+            const size_t size = (size_t)image->channels * sizeof(float);
             float *pixel = crv_image_at(image, x, y, 0);
-            out[y * image->width + x] = *pixel;
-            memset(pixel, GUARD_BYTE, sizeof *pixel);
+            memcpy(out + (y * image->width + x) * image->channels, pixel, size);
+            memset(pixel, GUARD_BYTE, size);
         }
     }
     for (size_t i = 0; i < c->size; i++) {
@@ -209,10 +210,15 @@ static crv_status session_begin(session *s, const simd_case *c, crv_isa isa, kee
 }
 
 static crv_status session_run(const session *s, const simd_case *c,
-                              const crv_image *result)
+                              const crv_image *result, const crv_image *bent)
 {
+    crv_result wanted;
+    crv_result_init(&wanted, sizeof wanted);
+    wanted.accessibility = *result;
+    if (bent)
+        wanted.bent_normal = *bent;
     if (!c->input)
-        return crv_plan_run(s->plan, s->gbuffer, result);
+        return crv_plan_run_result(s->plan, s->gbuffer, &wanted);
     crv_const_image input =
         crv_const_image_packed(c->input, result->width, result->height, 1);
     return crv_plan_filter(s->plan, s->gbuffer, &input, result);
@@ -225,17 +231,23 @@ float *simd_run(const simd_case *c, crv_isa isa)
     const int32_t height = d->height - d->guard_top - d->guard_bottom;
     keeper k = {.order = simd_random_make(c->layout, (uint64_t)isa, 0)};
     simd_random layout = simd_random_make(c->layout, 100, 0);
-    canvas to = canvas_make(&layout, width, height);
-    float *out = malloc((size_t)width * (size_t)height * sizeof *out);
+    const size_t count = (size_t)width * (size_t)height;
+    const int with_bent = c->options.bent_normal;
+    canvas to = canvas_make(&layout, width, height, 1),
+           bent = canvas_make(&layout, width, height, 3);
+    float *out = malloc((with_bent ? 4 : 1) * count * sizeof *out);
     session s = {0};
-    int done = to.block && out && session_begin(&s, c, isa, &k) == CRV_OK
-               && session_run(&s, c, &to.image) == CRV_OK && canvas_take(&to, out);
+    int done = to.block && bent.block && out && session_begin(&s, c, isa, &k) == CRV_OK
+               && session_run(&s, c, &to.image, with_bent ? &bent.image : NULL) == CRV_OK
+               && canvas_take(&to, out)
+               && (!with_bent || canvas_take(&bent, out + count));
     session_end(&s);
     if (k.blocks) {
         printf("  memory was not given back\n");
         done = 0;
     }
     free(to.block);
+    free(bent.block);
     if (done && k.faults == 0)
         return out;
     free(out);
@@ -256,7 +268,7 @@ double simd_time(const simd_case *c, crv_isa isa)
     int done = pixels && session_begin(&s, c, isa, NULL) == CRV_OK;
     for (int run = 0; done && run < 20 && (run < 3 || total < 0.5); run++) {
         const clock_t start = clock();
-        done = session_run(&s, c, &to) == CRV_OK;
+        done = session_run(&s, c, &to, NULL) == CRV_OK;
         const double seconds = (double)(clock() - start) / CLOCKS_PER_SEC;
         best = run == 0 || seconds < best ? seconds : best;
         total += seconds;

@@ -258,6 +258,7 @@ static void check_frame(const crv_options *given)
     for (int32_t i = -1; i < 2 * crv_filter_count(); i++) {
         crv_options options = *given;
         options.filter = crv_filter_at(i % crv_filter_count());
+        options.falloff = i % 2 ? CRV_FALLOFF_NONE : CRV_FALLOFF_LINEAR;
         const int32_t exact = i >= crv_filter_count();
         fixture_run run = {.exact = exact, .bent = bent};
         float *with = fixture_compute(&f, &options, &run);

@@ -66,6 +66,21 @@ static int32_t count_beyond(const float *a, const float *b, int32_t count,
     return beyond;
 }
 
+/* How many bent normals are more than 0.05 apart, about 3 degrees: a sector of bitmask
+ * set or not, as above. */
+static int32_t count_bent_beyond(const float *expected, const float *got, int32_t count)
+{
+    int32_t beyond = 0;
+    for (int32_t i = 0; i < count; i++) {
+        double squared = 0;
+        for (int32_t k = 3 * i; k < 3 * i + 3; k++)
+            squared += ((double)expected[k] - (double)got[k])
+                       * ((double)expected[k] - (double)got[k]);
+        beyond += squared > 0.05 * 0.05; /* NaN: no surface */
+    }
+    return beyond;
+}
+
 static int32_t pixel_count(const simd_case *c)
 {
     const crv_gbuffer_desc *d = &c->desc;
@@ -83,7 +98,9 @@ static void count_by_set(const simd_case *c, int32_t index, const float *expecte
             continue;
         float *got = simd_run(c, (crv_isa)isa);
         assert_non_null(got);
-        const int32_t over = count_beyond(got, expected, count, tolerance_of(c));
+        int32_t over = count_beyond(got, expected, count, tolerance_of(c));
+        if (c->options.bent_normal)
+            over += count_bent_beyond(expected + count, got + count, count);
         if (over > 2 + count / 200) {
             printf("%s, case %d: %d of %d px\n", crv_isa_name((crv_isa)isa), index, over,
                    count);

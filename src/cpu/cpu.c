@@ -24,14 +24,14 @@ typedef struct tiles {
     const crv__method *method;
     const crv__filter *filter;
     crv__estimate_kernel estimate_kernel; /* NULL: the specification */
+    crv__bent_kernel bent_kernel;
     crv__filter_kernel filter_kernel;
     crv__deinterleaved_kernel
         group_kernel; /* with di: for groups rather than tiles of pixels */
     const crv__deinterleaved *di;
     int32_t pass;
     const crv__picture *input; /* of a filter's pass */
-    const crv__plane *out;     /* accessibility; NULL: not computed */
-    const crv__plane *bent;    /* three planes; NULL: not computed */
+    const crv__picture *out;
     crv__rectangle area;
     int32_t columns, rows;
     void (*row)(const struct tiles *tiles, int32_t x0, int32_t x1, int32_t y);
@@ -47,50 +47,68 @@ static int is_background(const tiles *t, int32_t x, int32_t y)
     return !(*crv__plane_at(&t->work->frame->depth[0], x, y) < INFINITY);
 }
 
-static void put_bent(const tiles *t, int32_t x, int32_t y, crv__vec3 bent)
+/* A row of a picture, or room for one. */
+typedef struct picture_row {
+    float *accessibility;
+    float *bent[3]; /* NULL: not wanted */
+} picture_row;
+
+static picture_row row_of(const crv__picture *picture, int32_t x, int32_t y)
 {
-    *crv__plane_at(&t->bent[0], x, y) = bent.x;
-    *crv__plane_at(&t->bent[1], x, y) = bent.y;
-    *crv__plane_at(&t->bent[2], x, y) = bent.z;
+    picture_row row = {.accessibility = crv__plane_at(&picture->accessibility, x, y)};
+    for (int k = 0; k < 3 && picture->bent[0].data; k++)
+        row.bent[k] = crv__plane_at(&picture->bent[k], x, y);
+    return row;
 }
 
-/* The specification of pixels x0 to x1 - 1; out NULL: their bent normals alone. */
-static void specify_row(const tiles *t, int32_t x0, int32_t x1, int32_t y, float *out)
+static void put_bent(const picture_row *row, int32_t i, crv__vec3 bent)
+{
+    row->bent[0][i] = bent.x;
+    row->bent[1][i] = bent.y;
+    row->bent[2][i] = bent.z;
+}
+
+/* The specification of pixels x0 to x1 - 1. */
+static void specify_row(const tiles *t, int32_t x0, int32_t x1, int32_t y,
+                        const picture_row *to)
 {
     const crv__frame *frame = t->work->frame;
     for (int32_t x = x0; x < x1; x++) {
         crv__estimate e = {.accessibility = 1};
-        if (!is_background(t, x, y) && t->bent)
+        if (!is_background(t, x, y) && to->bent[0])
             e = t->method->estimate(frame, x, y);
         else if (!is_background(t, x, y))
             e.accessibility = t->method->accessibility(frame, x, y);
-        if (out)
-            out[x - x0] = clamped(1 - frame->params->intensity * (1 - e.accessibility));
-        if (t->bent)
-            put_bent(t, x, y, e.bent);
+        to->accessibility[x - x0] =
+            clamped(1 - frame->params->intensity * (1 - e.accessibility));
+        if (to->bent[0])
+            put_bent(to, x - x0, e.bent);
     }
 }
 
-static void estimate_pixels(const tiles *t, int32_t x0, int32_t x1, int32_t y, float *out)
+static void apply_contrast(const crv__params *p, float *row, int32_t count)
+{
+    for (int32_t i = 0; i < count && p->contrast != 1; i++)
+        row[i] = powf(row[i], p->contrast);
+}
+
+static void estimate_pixels(const tiles *t, int32_t x0, int32_t x1, int32_t y,
+                            const picture_row *to)
 {
     const crv__frame *frame = t->work->frame;
-    const crv__params *p = frame->params;
-    if (t->estimate_kernel)
-        t->estimate_kernel(frame, x0, x1, y, out);
+    if (!t->estimate_kernel)
+        specify_row(t, x0, x1, y, to);
+    else if (to->bent[0])
+        t->bent_kernel(frame, x0, x1, y, to->accessibility, to->bent);
     else
-        specify_row(t, x0, x1, y, out);
-    for (int32_t i = 0; i < x1 - x0 && p->contrast != 1; i++)
-        out[i] = powf(out[i], p->contrast);
+        t->estimate_kernel(frame, x0, x1, y, to->accessibility);
+    apply_contrast(frame->params, to->accessibility, x1 - x0);
 }
 
 static void estimate_row(const tiles *t, int32_t x0, int32_t x1, int32_t y)
 {
-    estimate_pixels(t, x0, x1, y, crv__plane_at(t->out, x0, y));
-}
-
-static void bent_row(const tiles *t, int32_t x0, int32_t x1, int32_t y)
-{
-    specify_row(t, x0, x1, y, NULL);
+    const picture_row to = row_of(t->out, x0, y);
+    estimate_pixels(t, x0, x1, y, &to);
 }
 
 static float filtered(float accessibility, float own, bool background)
@@ -100,18 +118,21 @@ static float filtered(float accessibility, float own, bool background)
     return isnan(own) ? own : clamped(accessibility); /* NaN: not part of the picture */
 }
 
+/* accessibility.data of the output NULL: bent normals alone. */
 static void filter_row(const tiles *t, int32_t x0, int32_t x1, int32_t y)
 {
+    const bool bent_only = !t->out->accessibility.data;
+    const picture_row to = row_of(t->out, x0, y);
     for (int32_t x = x0; x < x1; x++) {
         const float own = *crv__plane_at(&t->input->accessibility, x, y);
         const bool background = is_background(t, x, y);
         crv__estimate e = {.accessibility = 1};
         if (!background && !isnan(own))
             e = t->filter->filter(t->work->frame, t->input, t->pass, x, y);
-        if (t->out)
-            *crv__plane_at(t->out, x, y) = filtered(e.accessibility, own, background);
-        if (t->bent)
-            put_bent(t, x, y, e.bent);
+        if (!bent_only)
+            to.accessibility[x - x0] = filtered(e.accessibility, own, background);
+        if (to.bent[0])
+            put_bent(&to, x - x0, e.bent);
     }
 }
 
@@ -156,6 +177,7 @@ static void run_tiles(tiles *t)
 /* What a plan is computed with: kernels where there are, else NULL. */
 typedef struct plan_state {
     crv__estimate_kernel estimate;
+    crv__bent_kernel bent; /* of every method that gives them and has the other */
     crv__filter_kernel filter;
     crv__deinterleaved_state *di;
     crv__map_kernel map_kernel;
@@ -170,16 +192,23 @@ static const plan_state *state_of(const crv__work *work)
 }
 
 /* The pixels of a row whose radius is beyond the deinterleaved structure's table. */
-static void mend_row(const tiles *t, int32_t x0, int32_t x1, int32_t y, float *out)
+static void mend_row(const tiles *t, int32_t x0, int32_t x1, int32_t y,
+                     const picture_row *out)
 {
-    float exact[CRV__GROUP_SPAN];
+    float room[4][CRV__GROUP_SPAN];
+    picture_row exact = {.accessibility = room[0]};
+    for (int k = 0; k < 3 && out->bent[0]; k++)
+        exact.bent[k] = room[k + 1];
     for (int32_t x = x0; x < x1; x += CRV__GROUP_SPAN) {
         const int32_t end = x + CRV__GROUP_SPAN < x1 ? x + CRV__GROUP_SPAN : x1;
         const float *depth = crv__plane_at(&t->work->frame->depth[0], x, y);
-        estimate_pixels(t, x, end, y, exact);
+        estimate_pixels(t, x, end, y, &exact);
         for (int32_t i = 0; i < end - x; i++) {
-            if (crv__deinterleaved_is_beyond(t->di, t->work->frame->params, depth[i]))
-                out[x - x0 + i] = exact[i];
+            if (!crv__deinterleaved_is_beyond(t->di, t->work->frame->params, depth[i]))
+                continue;
+            out->accessibility[x - x0 + i] = exact.accessibility[i];
+            for (int k = 0; k < 3 && out->bent[0]; k++)
+                out->bent[k][x - x0 + i] = exact.bent[k][i];
         }
     }
 }
@@ -188,8 +217,7 @@ static void mend_row(const tiles *t, int32_t x0, int32_t x1, int32_t y, float *o
 static void run_group_tile(void *data, uint32_t index)
 {
     const tiles *t = data;
-    const crv__plane *out = t->out;
-    const crv__params *p = t->work->frame->params;
+    const crv__plane *out = &t->out->accessibility;
     const int32_t left = (out->x0 + t->di->left) / CRV__GROUP_SPAN;
     const int32_t end =
         (out->x0 + out->width + t->di->left + CRV__GROUP_SPAN - 1) / CRV__GROUP_SPAN;
@@ -206,20 +234,19 @@ static void run_group_tile(void *data, uint32_t index)
     const int32_t x1 = to < out->x0 + out->width ? to : out->x0 + out->width;
     for (int32_t i = 0; i < CRV__PHASES && y0 + i < y1; i++) {
         const crv__group_tile tile = {first, last, y0 + i, y1};
-        const int beyond = t->group_kernel(t->work->frame, t->di, &tile, out);
+        const int beyond = t->group_kernel(t->work->frame, t->di, &tile, t->out);
         for (int32_t y = y0 + i; y < y1; y += CRV__PHASES) {
-            float *result = crv__plane_at(out, x0, y);
-            for (int32_t x = 0; x < x1 - x0 && p->contrast != 1; x++)
-                result[x] = powf(result[x], p->contrast);
+            const picture_row to_row = row_of(t->out, x0, y);
+            apply_contrast(t->work->frame->params, to_row.accessibility, x1 - x0);
             if (beyond)
-                mend_row(t, x0, x1, y, result);
+                mend_row(t, x0, x1, y, &to_row);
         }
     }
 }
 
 static void run_group_tiles(tiles *t)
 {
-    const crv__plane *out = t->out;
+    const crv__plane *out = &t->out->accessibility;
     const int32_t left = (out->x0 + t->di->left) / CRV__GROUP_SPAN;
     const int32_t end =
         (out->x0 + out->width + t->di->left + CRV__GROUP_SPAN - 1) / CRV__GROUP_SPAN;
@@ -280,37 +307,28 @@ static void estimate(const crv__work *work, const crv__picture *to)
     tiles t = {.work = work,
                .method = work->setup->method,
                .estimate_kernel = state->estimate,
-               .out = &to->accessibility,
+               .bent_kernel = state->bent,
+               .out = to,
                .row = estimate_row};
-    const bool at_once = work->with_bent && !state->estimate;
     if (work->frame->map)
         make_map(work);
-    if (at_once)
-        t.bent = to->bent;
     if (state->di) {
         t.di = crv__deinterleaved_prepare(state->di, work->setup, work->frame);
-        t.group_kernel = crv__deinterleaved_kernel_of(state->di);
+        t.group_kernel = crv__deinterleaved_kernel_of(state->di, to->bent[0].data);
         run_group_tiles(&t);
     } else {
         run_tiles(&t);
     }
-    if (work->with_bent && !at_once) {
-        t.bent = to->bent;
-        t.row = bent_row;
-        run_tiles(&t);
-    }
 }
 
-/* A pass of the specification; out NULL: of the bent normals alone. */
 static void filter_pass(const crv__work *work, int32_t pass, const crv__picture *input,
-                        const crv__plane *out, const crv__plane *bent)
+                        const crv__picture *out)
 {
     tiles t = {.work = work,
                .filter = work->setup->filter,
                .pass = pass,
                .input = input,
                .out = out,
-               .bent = bent,
                .row = filter_row};
     run_tiles(&t);
 }
@@ -318,7 +336,7 @@ static void filter_pass(const crv__work *work, int32_t pass, const crv__picture 
 static void run_filter_tile(void *data, uint32_t index)
 {
     const tiles *t = data;
-    const crv__plane *out = t->out;
+    const crv__plane *out = &t->out->accessibility;
     const int32_t x0 =
         out->x0 + (int32_t)(index % (uint32_t)t->columns) * CRV__FILTER_TILE_WIDTH;
     const int32_t y0 =
@@ -350,12 +368,13 @@ static void filter_with(const crv__work *work, crv__filter_kernel kernel,
                         const crv__picture pictures[2])
 {
     const crv__picture input = {.accessibility =
-                                    shown_part(work, &pictures[0].accessibility)};
-    const crv__plane out = shown_part(work, &pictures[1].accessibility);
+                                    shown_part(work, &pictures[0].accessibility)},
+                       out = {.accessibility =
+                                  shown_part(work, &pictures[1].accessibility)};
+    const int32_t width = out.accessibility.width, height = out.accessibility.height;
     tiles t = {.work = work, .filter_kernel = kernel, .input = &input, .out = &out};
-    t.columns = (out.width + CRV__FILTER_TILE_WIDTH - 1) / CRV__FILTER_TILE_WIDTH;
-    const int32_t rows =
-        (out.height + CRV__FILTER_TILE_HEIGHT - 1) / CRV__FILTER_TILE_HEIGHT;
+    t.columns = (width + CRV__FILTER_TILE_WIDTH - 1) / CRV__FILTER_TILE_WIDTH;
+    const int32_t rows = (height + CRV__FILTER_TILE_HEIGHT - 1) / CRV__FILTER_TILE_HEIGHT;
     crv__run_parallel(work->setup->context, (uint32_t)t.columns * (uint32_t)rows,
                       run_filter_tile, &t);
 }
@@ -366,14 +385,12 @@ static void filter_passes(const crv__work *work, const crv__picture pictures[2],
                           bool bent_only)
 {
     for (int32_t pass = 0; pass < work->setup->filter->passes; pass++) {
-        const crv__picture *to = &pictures[(pass + 1) % 2];
-        crv__picture input = pictures[pass % 2];
-        if (bent_only) /* the kernel leaves the estimate where it is */
+        crv__picture input = pictures[pass % 2], to = pictures[(pass + 1) % 2];
+        if (bent_only) { /* the kernel leaves the estimate where it is */
             input.accessibility = pictures[0].accessibility;
-        if (!work->with_bent)
-            input.bent[0].data = NULL;
-        filter_pass(work, pass, &input, bent_only ? NULL : &to->accessibility,
-                    work->with_bent ? to->bent : NULL);
+            to.accessibility.data = NULL;
+        }
+        filter_pass(work, pass, &input, &to);
     }
 }
 
@@ -385,12 +402,14 @@ static void choose_kernels(const crv__setup *setup, const crv__plane *plane,
 {
     const crv__kernels *kernels = setup->context->kernels;
     state->estimate = NULL;
+    state->bent = NULL;
     state->filter = NULL;
     state->map_kernel = NULL;
     if (!kernels || plane->pitch > INT32_MAX / setup->desc.height)
         return;
     const crv__method_id method = crv__method_id_of(setup->method);
     state->estimate = kernels->estimates[method];
+    state->bent = kernels->bents[method];
     state->map_kernel = kernels->maps[method];
     if (setup->filter)
         state->filter = kernels->filters[crv__filter_id_of(setup->filter)];
@@ -445,7 +464,7 @@ static bool plan_update(const crv__setup *setup, void *data)
     return true;
 }
 
-static crv_status run(const crv__work *given, const crv__picture pictures[2],
+static crv_status run(const crv__work *given, const crv__picture given_pictures[2],
                       crv__picture *result)
 {
     const plan_state *own = given->state;
@@ -453,17 +472,17 @@ static crv_status run(const crv__work *given, const crv__picture pictures[2],
     frame.map = crv__setup_map(given->setup) ? &own->map : NULL;
     crv__work work = *given;
     work.frame = &frame;
+    crv__picture pictures[2] = {given_pictures[0], given_pictures[1]};
+    for (int i = 0; i < 2 && !work.with_bent; i++)
+        pictures[i].bent[0].data = NULL;
     const crv__filter *filter = work.setup->filter;
     const crv__filter_kernel kernel = state_of(&work)->filter;
     if (!work.filter_only)
         estimate(&work, &pictures[0]);
-    *result = pictures[0];
-    if (!filter)
-        return CRV_OK;
-    *result = pictures[filter->passes % 2];
-    if (!kernel || work.with_bent)
+    *result = pictures[filter ? filter->passes % 2 : 0];
+    if (filter && (!kernel || work.with_bent))
         filter_passes(&work, pictures, kernel);
-    if (kernel) {
+    if (filter && kernel) {
         filter_with(&work, kernel, pictures);
         result->accessibility = pictures[1].accessibility;
     }

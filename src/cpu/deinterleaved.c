@@ -383,9 +383,10 @@ const crv__deinterleaved *crv__deinterleaved_prepare(crv__deinterleaved_state *s
     return &s->di;
 }
 
-crv__deinterleaved_kernel crv__deinterleaved_kernel_of(const crv__deinterleaved_state *s)
+crv__deinterleaved_kernel crv__deinterleaved_kernel_of(const crv__deinterleaved_state *s,
+                                                       bool with_bent)
 {
-    return s->method->run;
+    return with_bent ? s->method->run_bent : s->method->run;
 }
 
 int crv__deinterleaved_is_beyond(const crv__deinterleaved *di, const crv__params *p,

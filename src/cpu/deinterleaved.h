@@ -30,7 +30,7 @@ const crv__deinterleaved *crv__deinterleaved_prepare(crv__deinterleaved_state *s
 
 /* The kernel to run then. */
 crv__deinterleaved_kernel crv__deinterleaved_kernel_of(
-    const crv__deinterleaved_state *state);
+    const crv__deinterleaved_state *state, bool with_bent);
 
 /* Whether a surface at this depth is in no bucket. */
 int crv__deinterleaved_is_beyond(const crv__deinterleaved *di, const crv__params *params,

@@ -4,9 +4,8 @@
  * kept negative, -(32 u - zeta), so that rounding down rounds up. What is as far as the
  * background is so far below everything that the next surface begins a run.
  */
+#include "cpu/kernels/sectors.h"
 #include "cpu/kernels/slice_groups.h"
-
-enum { SECTORS = 32 };
 
 /* What the code is specialised by. */
 typedef struct shape {
@@ -19,6 +18,7 @@ typedef struct shape {
 typedef struct sectors {
     vi mask, count; /* count: of the mask's bits */
     vf occlusion, start, last_x, last_z;
+    vf blocked[GROUPS]; /* with bent normals, if sectors weigh differently */
 } sectors;
 
 /* What the place of a point is computed from. */
@@ -78,9 +78,17 @@ CRV__INLINE vf flatness(const crv__slice_view *w, const crv__group_slice *s, flo
     return vf_select(vf_lt(s->cos_tangent, vf_set(-0.9f)), vf_set(1e30f), limit);
 }
 
+CRV__INLINE void add_groups(sectors *to, vf weight, vi bits)
+{
+    const vi counts = crv__group_counts(bits);
+    for (int32_t g = 0; g < GROUPS; g++)
+        to->blocked[g] = vf_fma(weight, crv__group_count(counts, g), to->blocked[g]);
+}
+
 CRV__INLINE void add_sample(sectors *to, const crv__slice_view *w,
                             const crv__group_slice *s, const scale *places, shape c,
-                            const crv__sample *sample, vf x, vf z, vf width)
+                            const crv__sample *sample, vf x, vf z, vf width,
+                            bool with_vectors)
 {
     const crv__params *p = w->params;
     const vf zero = vf_zero();
@@ -105,8 +113,8 @@ CRV__INLINE void add_sample(sectors *to, const crv__slice_view *w,
     const vm there = vm_and(rises, vf_lt(back_z, front_z));
     const vi front = vi_from_bit(first_from(s, places, front_x, front_z));
     const vi back = vi_from_bit(first_from(s, places, back_x, back_z));
-    const vi bits = vi_select(there, front & ~back, vi_set(0));
-    to->mask = to->mask | bits;
+    const vi bits = vi_select(there, front & ~back, vi_set(0)), before = to->mask;
+    to->mask = before | bits;
     if (c.hard)
         return;
     const vi so_far = vi_count_bits(to->mask);
@@ -118,7 +126,10 @@ CRV__INLINE void add_sample(sectors *to, const crv__slice_view *w,
     const vf middle = vf_fma(vf_set(-0.7f) * (r - x), added * vf_rcp(count), r);
     const vf q = vf_min(middle * w->inverse_radius, vf_set(CRV__BELOW_ONE));
     const vm counts = vf_lt(zero, added);
-    to->occlusion = to->occlusion + vf_where(counts, crv__lanes_falloff(p, q) * added);
+    const vf W = crv__lanes_falloff(p, q);
+    to->occlusion = to->occlusion + vf_where(counts, W * added);
+    if (with_vectors)
+        add_groups(to, vf_where(counts, W), bits & ~before);
 }
 
 /* The map's values at a sample. */
@@ -147,7 +158,7 @@ CRV__INLINE vf width_at(const crv__group_pixels *at, const crv__sample_place *pl
 /* The blocked share of a slice. */
 CRV__INLINE vf blocked_share(const crv__group_pixels *at, const crv__list *list,
                              const crv__slice_view *w, const crv__group_slice *s, shape c,
-                             int32_t k)
+                             int32_t k, crv__lanes_vectors *vectors)
 {
     const vf zero = vf_zero();
     const int32_t first = k * at->di->steps, last = first + list->counts[k];
@@ -160,7 +171,14 @@ CRV__INLINE vf blocked_share(const crv__group_pixels *at, const crv__list *list,
                           .offset = vf_set(offset),
                           .flat = flatness(w, s, offset, uniform),
                           .uniform = uniform};
-    sectors found = {vi_set(0), vi_set(0), zero, zero, zero, zero};
+    sectors found = {.mask = vi_set(0),
+                     .count = vi_set(0),
+                     .occlusion = zero,
+                     .start = zero,
+                     .last_x = zero,
+                     .last_z = zero};
+    for (int32_t g = 0; vectors && g < GROUPS; g++)
+        found.blocked[g] = zero;
     for (int32_t i = first; i < last; i++) {
         const crv__sample_place *place = &list->places[i];
         const vf d = crv__group_slice_depth(at, place, 0, c.border);
@@ -168,8 +186,13 @@ CRV__INLINE vf blocked_share(const crv__group_pixels *at, const crv__list *list,
             c.rule == CRV_THICKNESS_WIDTH ? width_at(at, place, c.border) : zero;
         vf x, z;
         crv__group_slice_point(w, s, &list->samples[i], d, c.orthographic, &x, &z);
-        add_sample(&found, w, s, &places, c, &list->samples[i], x, z, width);
+        add_sample(&found, w, s, &places, c, &list->samples[i], x, z, width, vectors);
     }
+    if (vectors && c.hard)
+        add_groups(&found, vf_set(1), found.mask);
+    if (vectors)
+        *vectors = crv__group_vectors(w->params, s->cos_tangent, s->sin_tangent, s->total,
+                                      found.blocked);
     const vf occlusion = c.hard ? vf_of(vi_count_bits(found.mask)) : found.occlusion;
     return occlusion * vf_set(1.0f / SECTORS);
 }
@@ -185,14 +208,25 @@ CRV__SLICE_SHAPE(soft_run_border, .rule = CRV_THICKNESS_RUN, .border = true)
 CRV__SLICE_SHAPE(hard_run, .rule = CRV_THICKNESS_RUN, .hard = true)
 CRV__SLICE_SHAPE(hard_run_border, .rule = CRV_THICKNESS_RUN, .hard = true, .border = true)
 
+CRV__SLICE_BENT_SHAPE(hard_bent, .rule = CRV_THICKNESS_WIDTH, .hard = true)
+CRV__SLICE_BENT_SHAPE(soft_bent, .rule = CRV_THICKNESS_WIDTH)
+
+CRV__INLINE shape general_shape(const crv__params *p)
+{
+    return (shape){
+        .rule = p->thickness_rule, .orthographic = p->orthographic, .border = true};
+}
+
 /* Everything else. */
 CRV__NOINLINE vf general(const crv__group_pixels *at, const crv__list *list)
 {
-    const crv__params *p = at->frame->params;
-    return sum_of_slices(at, list,
-                         (shape){.rule = p->thickness_rule,
-                                 .orthographic = p->orthographic,
-                                 .border = true});
+    return sum_of_slices(at, list, general_shape(at->frame->params), NULL);
+}
+
+CRV__NOINLINE vf general_bent(const crv__group_pixels *at, const crv__list *list,
+                              crv__v3 *bent)
+{
+    return sum_of_slices(at, list, general_shape(at->frame->params), bent);
 }
 
 CRV__INLINE vf accessibility(const crv__group_pixels *at, const crv__list *list)
@@ -212,5 +246,17 @@ CRV__INLINE vf accessibility(const crv__group_pixels *at, const crv__list *list)
     return general(at, list);
 }
 
-CRV__DEINTERLEAVED_KERNEL(bitmask, .in_slices = true, .jittered = true,
-                          .far_on_grid = true, .one_layer = true, .fineness = 2)
+CRV__INLINE vf estimate(const crv__group_pixels *at, const crv__list *list, crv__v3 *bent)
+{
+    const crv__params *p = at->frame->params;
+    if (p->orthographic || p->thickness_rule != CRV_THICKNESS_WIDTH || at->at_border)
+        return general_bent(at, list, bent);
+    return p->falloff == CRV_FALLOFF_NONE ? hard_bent(at, list, bent)
+                                          : soft_bent(at, list, bent);
+}
+
+CRV__DEINTERLEAVED_BENT
+
+CRV__DEINTERLEAVED_KERNEL(bitmask, .run_bent = run_bent, .in_slices = true,
+                          .jittered = true, .far_on_grid = true, .one_layer = true,
+                          .fineness = 2)

@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* methods/bitmask.c for the lanes of a vector. A sector is one side of a limit or the
  * other: all is rounded as there. */
-#include "cpu/kernels/slice.h"
-
-enum { SECTORS = 32 };
+#include "cpu/kernels/sectors.h"
 
 /* A slice so far, and what bodies are: see the scalar code. */
 typedef struct sectors {
     vi mask;
     vf occlusion, start, last_x, last_z;
+    vf blocked[GROUPS];
 } sectors;
 
 typedef struct body {
@@ -35,7 +34,8 @@ CRV__INLINE vi first_from(const crv__lanes_slice *s, vf share)
 /* Adds the bodies of the lanes of `there`. */
 CRV__INLINE void add_bodies(sectors *to, const crv__params *p,
                             const crv__lanes_site *site, const crv__lanes_slice *s,
-                            const crv__lanes_texel *texel, const body *b, vm there)
+                            const crv__lanes_texel *texel, const body *b, vm there,
+                            bool with_vectors)
 {
     const vf one = vf_set(1), zero = vf_zero(), R = vf_set(p->radius);
     const vf front_x = b->x * (one - vf_set(0.25f) * (one - texel->near));
@@ -60,6 +60,10 @@ CRV__INLINE void add_bodies(sectors *to, const crv__params *p,
     const vf W = crv__lanes_falloff(p, q);
     to->occlusion =
         to->occlusion + vf_where(there, W * new_count / vf_set((float)SECTORS));
+    const vi counts = crv__group_counts(added);
+    for (int32_t g = 0; with_vectors && g < GROUPS; g++)
+        to->blocked[g] =
+            to->blocked[g] + vf_where(there, W * crv__group_count(counts, g));
 }
 
 /* crv__map_at() */
@@ -115,7 +119,8 @@ CRV__INLINE void follow_run(sectors *to, vf x, vf z, vm there)
 
 CRV__INLINE void add_texels(sectors *to, const crv__frame *f, crv__shape shape,
                             const crv__pixels *at, const crv__lanes_site *site,
-                            const crv__lanes_slice *s, const crv__lanes_texel *texel)
+                            const crv__lanes_slice *s, const crv__lanes_texel *texel,
+                            bool with_vectors)
 {
     const crv__params *p = f->params;
     const vf infinity = vf_set(INFINITY);
@@ -140,7 +145,7 @@ CRV__INLINE void add_texels(sectors *to, const crv__frame *f, crv__shape shape,
             b.thickness = vf_select(vf_lt(gap, infinity),
                                     ends ? gap : vf_min(b.thickness, gap), b.thickness);
         }
-        add_bodies(to, p, site, s, texel, &b, there);
+        add_bodies(to, p, site, s, texel, &b, there, with_vectors);
         layer += 1 + shape.solid;
         if (layer < shape.layers) {
             d = crv__lanes_slice_depth(f, shape, layer, texel);
@@ -150,20 +155,36 @@ CRV__INLINE void add_texels(sectors *to, const crv__frame *f, crv__shape shape,
 }
 
 CRV__INLINE vf blocked_share(const crv__frame *f, crv__shape shape, const crv__pixels *at,
-                             const crv__lanes_site *site, const crv__lanes_slice *s)
+                             const crv__lanes_site *site, const crv__lanes_slice *s,
+                             crv__lanes_vectors *vectors)
 {
     const vf zero = vf_zero();
-    sectors found = {vi_set(0), zero, zero, zero, zero};
+    sectors found = {.mask = vi_set(0),
+                     .occlusion = zero,
+                     .start = zero,
+                     .last_x = zero,
+                     .last_z = zero};
+    for (int32_t g = 0; vectors && g < GROUPS; g++)
+        found.blocked[g] = zero;
     for (int32_t i = 0; i < f->params->steps; i++) {
         const crv__lanes_texel texel = crv__lanes_slice_texel(f->params, shape, at, s, i);
-        add_texels(&found, f, shape, at, site, s, &texel);
+        add_texels(&found, f, shape, at, site, s, &texel, vectors);
     }
+    if (vectors)
+        *vectors = crv__group_vectors(f->params, s->cos_tangent, s->sin_tangent, s->total,
+                                      found.blocked);
     return found.occlusion;
+}
+
+CRV__INLINE vf estimate(const crv__frame *f, crv__shape shape, const crv__pixels *at,
+                        crv__v3 *bent)
+{
+    return crv__lanes_slices_open(f, shape, at, blocked_share, bent);
 }
 
 CRV__INLINE vf accessibility(const crv__frame *f, crv__shape shape, const crv__pixels *at)
 {
-    return crv__lanes_slices_open(f, shape, at, blocked_share);
+    return estimate(f, shape, at, NULL);
 }
 
 CRV__INLINE int within(const crv__frame *f, const crv__pixels *at)
@@ -172,3 +193,5 @@ CRV__INLINE int within(const crv__frame *f, const crv__pixels *at)
 }
 
 CRV__ESTIMATE_KERNEL(bitmask, 1)
+
+CRV__BENT_KERNEL(bitmask)

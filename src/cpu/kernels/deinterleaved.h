@@ -109,13 +109,13 @@ typedef struct crv__group_tile {
     int32_t first, last, y0, y1;
 } crv__group_tile;
 
-/* Accessibility, as a crv__estimate_kernel computes it, of a tile, all four phases of x;
- * nothing is written beside `out`. Returns whether some pixel's radius is beyond the
+/* What a crv__estimate_kernel or crv__bent_kernel computes, of a tile, all four phases of
+ * x; nothing is written beside `out`. Returns whether some pixel's radius is beyond the
  * table: the values of such pixels are undefined. */
 typedef int (*crv__deinterleaved_kernel)(const crv__frame *frame,
                                          const crv__deinterleaved *di,
                                          const crv__group_tile *tile,
-                                         const crv__plane *out);
+                                         const crv__picture *out);
 
 /* Fills what di->depth holds of row y from all layers. */
 typedef void (*crv__deinterleave_kernel)(const crv__frame *frame,

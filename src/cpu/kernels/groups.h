@@ -130,7 +130,20 @@ CRV__INLINE vf crv__sample_depth(const crv__group_pixels *at, const float *from)
     return vf_load(from);
 }
 
+/* Accessibility; of kernels that give bent normals, those as well. */
 typedef vf (*crv__group_method)(const crv__group_pixels *pixels, const crv__list *list);
+typedef vf (*crv__group_bent_method)(const crv__group_pixels *pixels,
+                                     const crv__list *list, crv__v3 *bent);
+
+/* Either of them, and how many planes it fills: accessibility alone, or the bent normal's
+ * components as well. */
+typedef struct crv__group_kernel {
+    crv__group_method method;
+    crv__group_bent_method bent_method;
+    int32_t planes;
+} crv__group_kernel;
+
+enum { CRV__GROUP_PLANES = 4 }; /* at most */
 
 /* What is known of a group before its samples are read. */
 typedef struct crv__group {
@@ -192,11 +205,17 @@ CRV__INLINE crv__v3 crv__group_normal(const float *const spans[3], int32_t px, i
     }
 }
 
+CRV__INLINE void crv__group_store(float *to, vm mine, vf value)
+{
+    vf_store(to, vf_select(mine, value, vf_load(to)));
+}
+
 /* One pass over a group: the lanes whose bucket is from low to high, with one list. */
 CRV__INLINE void crv__group_pass(crv__group_pixels *at, const crv__list *list,
                                  const crv__group *group, const float *depth, int32_t low,
-                                 int32_t high, int32_t px, float *result,
-                                 crv__group_method method)
+                                 int32_t high, int32_t px,
+                                 float *const results[CRV__GROUP_PLANES],
+                                 crv__group_kernel kernel)
 {
     const crv__params *p = at->frame->params;
     const vf one = vf_set(1), intensity = vf_set(p->intensity);
@@ -222,27 +241,37 @@ CRV__INLINE void crv__group_pass(crv__group_pixels *at, const crv__list *list,
         at->ray_x = p->orthographic
                         ? vf_zero()
                         : (vf_of(at->x) + vf_set(0.5f - p->cx)) * vf_set(p->inv_fx);
-        const vf a = method(at, list);
+        crv__v3 bent;
+        const vf a = kernel.bent_method ? kernel.bent_method(at, list, &bent)
+                                        : kernel.method(at, list);
         const vf shown = vf_clamp01(one - intensity * (one - a));
-        vf_store(result + i, vf_select(mine, shown, vf_load(result + i)));
+        crv__group_store(results[0] + i, mine, shown);
+        if (kernel.planes > 1) {
+            crv__group_store(results[1] + i, mine, bent.x);
+            crv__group_store(results[2] + i, mine, bent.y);
+            crv__group_store(results[3] + i, mine, bent.z);
+        }
     }
 }
 
 /* All passes that a group takes. */
 CRV__INLINE void crv__group_run(crv__group_pixels *at, const crv__group *group,
-                                const float *depth, int32_t px, float *result,
-                                crv__group_method method)
+                                const float *depth, int32_t px,
+                                float *const results[CRV__GROUP_PLANES],
+                                crv__group_kernel kernel)
 {
     const int32_t phase = ((at->y + at->di->top) & 3) * CRV__PHASES + px;
     int32_t low = group->low;
-    for (int32_t i = 0; i < CRV__GROUP_PIXELS; i += CRV__LANES)
-        vf_store(result + i, vf_set(1));
+    for (int32_t k = 0; k < kernel.planes; k++) {
+        for (int32_t i = 0; i < CRV__GROUP_PIXELS; i += CRV__LANES)
+            vf_store(results[k] + i, vf_set(k == 0 ? 1 : 0));
+    }
     while (low <= group->high) {
         int32_t chosen = low, top = low, next = INT32_MAX;
         if (group->high > low)
             chosen = crv__group_choose(group->buckets, low, &top, &next);
         const crv__list list = crv__list_at(at, chosen, phase);
-        crv__group_pass(at, &list, group, depth, low, top, px, result, method);
+        crv__group_pass(at, &list, group, depth, low, top, px, results, kernel);
         low = next;
     }
 }
@@ -293,7 +322,7 @@ CRV__INLINE void crv__tile_join(const crv__deinterleaved *di, const crv__group_t
 /* The groups of one row and phase. */
 CRV__INLINE int crv__tile_row(crv__group_pixels *at, const crv__group_tile *tile,
                               int32_t px, int32_t row, crv__tile_out *out,
-                              crv__group_method method)
+                              crv__group_kernel kernel)
 {
     const crv__params *p = at->frame->params;
     const crv__deinterleaved *di = at->di;
@@ -311,33 +340,38 @@ CRV__INLINE int crv__tile_row(crv__group_pixels *at, const crv__group_tile *tile
             crv__group_fill(&groups[g], di, p, depth + g * CRV__GROUP_PIXELS, phase);
     for (int32_t g = 0; g < count; g++) {
         at->m = (tile->first + g) * CRV__GROUP_PIXELS;
-        float *span = crv__tile_span(out, at->m * CRV__PHASES - di->left, at->y, row);
-        crv__group_run(at, &groups[g], depth + g * CRV__GROUP_PIXELS, px,
-                       span + px * CRV__GROUP_PIXELS, method);
+        float *spans[CRV__GROUP_PLANES];
+        for (int32_t k = 0; k < kernel.planes; k++)
+            spans[k] = crv__tile_span(&out[k], at->m * CRV__PHASES - di->left, at->y, row)
+                       + px * CRV__GROUP_PIXELS;
+        crv__group_run(at, &groups[g], depth + g * CRV__GROUP_PIXELS, px, spans, kernel);
     }
     return beyond;
 }
 
 /* See crv__deinterleaved_kernel. */
 CRV__INLINE int crv__tile_run(const crv__frame *f, const crv__deinterleaved *di,
-                              const crv__group_tile *tile, const crv__plane *plane,
-                              crv__group_method method)
+                              const crv__group_tile *tile, const crv__picture *picture,
+                              crv__group_kernel kernel)
 {
     crv__group_pixels at;
-    crv__tile_out out;
+    crv__tile_out out[CRV__GROUP_PLANES];
     int beyond = 0;
     at.frame = f;
     at.di = di;
-    out.plane = plane;
+    for (int32_t k = 0; k < kernel.planes; k++)
+        out[k].plane = k == 0 ? &picture->accessibility : &picture->bent[k - 1];
     for (int32_t px = 0; px < CRV__PHASES; px++) {
         at.px = px;
         for (int32_t y = tile->y0, row = 0; y < tile->y1; y += CRV__PHASES, row++) {
             at.y = y;
-            beyond |= crv__tile_row(&at, tile, px, row, &out, method);
+            beyond |= crv__tile_row(&at, tile, px, row, out, kernel);
         }
     }
-    for (int32_t y = tile->y0, row = 0; y < tile->y1; y += CRV__PHASES, row++)
-        crv__tile_join(di, tile, &out, y, row);
+    for (int32_t k = 0; k < kernel.planes; k++) {
+        for (int32_t y = tile->y0, row = 0; y < tile->y1; y += CRV__PHASES, row++)
+            crv__tile_join(di, tile, &out[k], y, row);
+    }
     return beyond;
 }
 
@@ -345,12 +379,24 @@ CRV__INLINE int crv__tile_run(const crv__frame *f, const crv__deinterleaved *di,
  * name are members of crv__deinterleaved_method, designated. */
 #define CRV__DEINTERLEAVED_KERNEL(name, ...)                                             \
     static int run(const crv__frame *f, const crv__deinterleaved *di,                    \
-                   const crv__group_tile *tile, const crv__plane *out)                   \
+                   const crv__group_tile *tile, const crv__picture *out)                 \
     {                                                                                    \
-        return crv__tile_run(f, di, tile, out, accessibility);                           \
+        return crv__tile_run(f, di, tile, out,                                           \
+                             (crv__group_kernel){.method = accessibility, .planes = 1}); \
     }                                                                                    \
     extern const crv__deinterleaved_method CRV__NAME(name##_deinterleaved);              \
     const crv__deinterleaved_method CRV__NAME(name##_deinterleaved) = {.run = run,       \
                                                                        __VA_ARGS__};
+
+/* Defines run_bent() from the static function estimate(), for that member; goes before
+ * CRV__DEINTERLEAVED_KERNEL. */
+#define CRV__DEINTERLEAVED_BENT                                                          \
+    static int run_bent(const crv__frame *f, const crv__deinterleaved *di,               \
+                        const crv__group_tile *tile, const crv__picture *out)            \
+    {                                                                                    \
+        return crv__tile_run(                                                            \
+            f, di, tile, out,                                                            \
+            (crv__group_kernel){.bent_method = estimate, .planes = CRV__GROUP_PLANES});  \
+    }
 
 #endif

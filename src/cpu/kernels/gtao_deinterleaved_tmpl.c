@@ -12,12 +12,14 @@ typedef struct shape {
 /* A slice so far: see the scalar code. */
 typedef struct horizon {
     vf cosine, open, occlusion, weight;
+    crv__v2 vector, blocked;
 } horizon;
 
 /* Where x and z are 0, the root is a NaN and nothing above. What is as far as the
  * background lies beyond the radius. */
 CRV__INLINE void add_sample(horizon *h, const crv__slice_view *w,
-                            const crv__group_slice *s, shape c, vf x, vf z)
+                            const crv__group_slice *s, shape c, vf x, vf z,
+                            bool with_vectors)
 {
     const crv__params *p = w->params;
     const vf zero = vf_zero();
@@ -38,30 +40,58 @@ CRV__INLINE void add_sample(horizon *h, const crv__slice_view *w,
     if (p->attenuation == CRV_ATTENUATION_HORIZON)
         h->weight = vf_select(above, W, h->weight);
     h->cosine = vf_select(above, cosine, h->cosine);
+    if (with_vectors) {
+        const crv__v2 v = crv__lanes_vector(p, w->a, s->b, cosine, x * inverse);
+        const vf gain = vf_where(above, W);
+        h->blocked.T = vf_fma(h->vector.T - v.T, gain, h->blocked.T);
+        h->blocked.V = vf_fma(h->vector.V - v.V, gain, h->blocked.V);
+        h->vector.T = vf_select(above, v.T, h->vector.T);
+        h->vector.V = vf_select(above, v.V, h->vector.V);
+    }
+}
+
+/* What the slice's vectors are then. all: of the whole slice. */
+CRV__INLINE crv__lanes_vectors vectors_of(const horizon *h, const crv__params *p, shape c,
+                                          crv__v2 all)
+{
+    const vf one = vf_set(1);
+    crv__v2 K = h->blocked;
+    if (c.hard || p->attenuation == CRV_ATTENUATION_HORIZON) {
+        const vf W = c.hard ? one : h->weight;
+        K = (crv__v2){(all.T - h->vector.T) * W, (all.V - h->vector.V) * W};
+    }
+    return (crv__lanes_vectors){.open = {all.T - K.T, all.V - K.V}, .blocked = K};
 }
 
 /* The blocked share of a slice. */
 CRV__INLINE vf blocked_share(const crv__group_pixels *at, const crv__list *list,
                              const crv__slice_view *w, const crv__group_slice *s, shape c,
-                             int32_t k)
+                             int32_t k, crv__lanes_vectors *vectors)
 {
     const vf zero = vf_zero(), one = vf_set(1);
+    const crv__v2 all =
+        crv__lanes_vector(w->params, w->a, s->b, s->cos_tangent, s->sin_tangent);
     const int32_t first = k * at->di->steps, last = first + list->counts[k];
-    horizon h = {s->cos_tangent, one, zero, zero};
+    horizon h = {s->cos_tangent, one, zero, zero, all, {zero, zero}};
     for (int32_t i = first; i < last; i++) {
         for (int32_t layer = 0; layer < c.layers; layer++) {
             const vf d = crv__group_slice_depth(at, &list->places[i], layer, c.border);
             vf x, z;
             crv__group_slice_point(w, s, &list->samples[i], d, c.orthographic, &x, &z);
-            add_sample(&h, w, s, c, x, z);
+            add_sample(&h, w, s, c, x, z, vectors);
         }
     }
     if (c.hard) {
         const vf rest = vf_max(vf_fma(-h.cosine, h.cosine, one), vf_set(1e-30f));
         const vf sine = rest * vf_rsqrt_fair(rest);
         const vf measure = crv__lanes_measure(w->params, w->a, s->b, h.cosine, sine);
+        h.vector = crv__lanes_vector(w->params, w->a, s->b, h.cosine, sine);
+        if (vectors)
+            *vectors = vectors_of(&h, w->params, c, all);
         return one - vf_clamp01(measure * s->inverse);
     }
+    if (vectors)
+        *vectors = vectors_of(&h, w->params, c, all);
     return w->params->attenuation == CRV_ATTENUATION_SLAB ? h.occlusion
                                                           : (one - h.open) * h.weight;
 }
@@ -72,14 +102,25 @@ CRV__SLICE_SHAPE(hard, .layers = 1, .hard = true)
 CRV__SLICE_SHAPE(hard_border, .layers = 1, .hard = true, .border = true)
 CRV__SLICE_SHAPE(soft, .layers = 1)
 CRV__SLICE_SHAPE(soft_border, .layers = 1, .border = true)
+CRV__SLICE_BENT_SHAPE(hard_bent, .layers = 1, .hard = true)
+CRV__SLICE_BENT_SHAPE(hard_border_bent, .layers = 1, .hard = true, .border = true)
+CRV__SLICE_BENT_SHAPE(soft_bent, .layers = 1)
+
+CRV__INLINE shape general_shape(const crv__params *p)
+{
+    return (shape){.layers = p->layers, .orthographic = p->orthographic, .border = true};
+}
 
 /* Everything else. */
 CRV__NOINLINE vf general(const crv__group_pixels *at, const crv__list *list)
 {
-    const crv__params *p = at->frame->params;
-    return sum_of_slices(
-        at, list,
-        (shape){.layers = p->layers, .orthographic = p->orthographic, .border = true});
+    return sum_of_slices(at, list, general_shape(at->frame->params), NULL);
+}
+
+CRV__NOINLINE vf general_bent(const crv__group_pixels *at, const crv__list *list,
+                              crv__v3 *bent)
+{
+    return sum_of_slices(at, list, general_shape(at->frame->params), bent);
 }
 
 CRV__INLINE vf accessibility(const crv__group_pixels *at, const crv__list *list)
@@ -92,5 +133,18 @@ CRV__INLINE vf accessibility(const crv__group_pixels *at, const crv__list *list)
     return at->at_border ? soft_border(at, list) : soft(at, list);
 }
 
-CRV__DEINTERLEAVED_KERNEL(gtao, .in_slices = true, .jittered = true, .far_on_grid = true,
-                          .fineness = 2)
+CRV__INLINE vf estimate(const crv__group_pixels *at, const crv__list *list, crv__v3 *bent)
+{
+    const crv__params *p = at->frame->params;
+    if (p->layers > 1 || p->orthographic)
+        return general_bent(at, list, bent);
+    if (p->falloff == CRV_FALLOFF_NONE)
+        return at->at_border ? hard_border_bent(at, list, bent)
+                             : hard_bent(at, list, bent);
+    return at->at_border ? general_bent(at, list, bent) : soft_bent(at, list, bent);
+}
+
+CRV__DEINTERLEAVED_BENT
+
+CRV__DEINTERLEAVED_KERNEL(gtao, .run_bent = run_bent, .in_slices = true, .jittered = true,
+                          .far_on_grid = true, .fineness = 2)

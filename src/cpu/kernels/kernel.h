@@ -14,6 +14,10 @@
 typedef void (*crv__estimate_kernel)(const crv__frame *frame, int32_t x0, int32_t x1,
                                      int32_t y, float *out);
 
+/* The same, and the components of the bent normals, unit length, background 0. */
+typedef void (*crv__bent_kernel)(const crv__frame *frame, int32_t x0, int32_t x1,
+                                 int32_t y, float *out, float *const bent[3]);
+
 /* The pixels of x0 to x1 - 1 and y0 to y1 - 1. */
 typedef struct crv__tile {
     int32_t x0, x1, y0, y1;
@@ -41,6 +45,7 @@ typedef void (*crv__map_kernel)(const crv__frame *frame, const crv__plane *out,
  * Projected radii are quantised to 2^fineness buckets an octave. */
 typedef struct crv__deinterleaved_method {
     crv__deinterleaved_kernel run;
+    crv__deinterleaved_kernel run_bent; /* with bent normals; NULL: there is none */
     bool in_slices, in_pairs, is_rounded, keeps_centre, far_on_grid, jittered, one_layer;
     int32_t fineness;
 } crv__deinterleaved_method;
@@ -48,6 +53,7 @@ typedef struct crv__deinterleaved_method {
 /* NULL: there is none. */
 typedef struct crv__kernels {
     crv__estimate_kernel estimates[CRV__METHOD_COUNT];
+    crv__bent_kernel bents[CRV__METHOD_COUNT];
     const crv__deinterleaved_method *deinterleaved[CRV__METHOD_COUNT];
     crv__map_kernel maps[CRV__METHOD_COUNT];
     crv__filter_kernel filters[CRV__FILTER_COUNT];

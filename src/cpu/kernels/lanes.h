@@ -265,6 +265,41 @@ CRV__INLINE void crv__estimate_row(const crv__frame *f, int32_t x0, int32_t x1, 
     }
 }
 
+typedef vf (*crv__lanes_bent_method)(const crv__frame *, const crv__pixels *,
+                                     crv__v3 *bent);
+
+/* Runs a method over a row: see crv__bent_kernel. */
+CRV__INLINE void crv__bent_row(const crv__frame *f, int32_t x0, int32_t x1, int32_t y,
+                               float *out, float *const bent[3],
+                               crv__lanes_within_test within,
+                               crv__lanes_bent_method inner,
+                               crv__lanes_bent_method general)
+{
+    const crv__params *p = f->params;
+    const vf one = vf_set(1), zero = vf_zero(), intensity = vf_set(p->intensity);
+    const int common = p->layers == 1 && !p->orthographic;
+    crv__pixels at = {.scale = 1};
+    crv__turned_points turned;
+    const int steady = crv__lanes_begin(f, &at, &turned, x0, y);
+    for (int32_t x = x0; x < x1; x += CRV__LANES) {
+        const int32_t count = x1 - x < CRV__LANES ? x1 - x : CRV__LANES;
+        crv__lanes_surface(f, &at, x, y, count);
+        vf result = one;
+        crv__v3 B = {zero, zero, zero};
+        if (vm_any(at.active)) {
+            if (!steady)
+                crv__lanes_noise(f, &at, x, y);
+            const vf a =
+                common && within(f, &at) ? inner(f, &at, &B) : general(f, &at, &B);
+            result = vf_select(at.active, vf_clamp01(one - intensity * (one - a)), one);
+        }
+        vf_store_n(out + (x - x0), result, count);
+        vf_store_n(bent[0] + (x - x0), vf_where(at.active, B.x), count);
+        vf_store_n(bent[1] + (x - x0), vf_where(at.active, B.y), count);
+        vf_store_n(bent[2] + (x - x0), vf_where(at.active, B.z), count);
+    }
+}
+
 /* Defines the kernel of a method from its static functions accessibility() and within().
  * What is common, one layer in perspective, is compiled for itself. scale: of the points,
  * an expression of the frame f. */
@@ -292,6 +327,32 @@ CRV__INLINE void crv__estimate_row(const crv__frame *f, int32_t x0, int32_t x1, 
                          float *out)                                                     \
     {                                                                                    \
         crv__estimate_row(f, x0, x1, y, out, scale, within, inner, border, general);     \
+    }
+
+/* Defines the kernel that computes bent normals as well, from estimate(), which is
+ * accessibility() with a place for them, and within(). */
+#define CRV__BENT_KERNEL(name)                                                           \
+    CRV__NOINLINE vf inner_bent(const crv__frame *f, const crv__pixels *at,              \
+                                crv__v3 *bent)                                           \
+    {                                                                                    \
+        return estimate(f, (crv__shape){.layers = 1, .within = 1}, at, bent);            \
+    }                                                                                    \
+    CRV__NOINLINE vf general_bent(const crv__frame *f, const crv__pixels *at,            \
+                                  crv__v3 *bent)                                         \
+    {                                                                                    \
+        const crv__params *p = f->params;                                                \
+        return estimate(f,                                                               \
+                        (crv__shape){.layers = p->layers,                                \
+                                     .solid = p->layers_solid,                           \
+                                     .orthographic = p->orthographic},                   \
+                        at, bent);                                                       \
+    }                                                                                    \
+    void CRV__NAME(name##_bent)(const crv__frame *f, int32_t x0, int32_t x1, int32_t y,  \
+                                float *out, float *const bent[3]);                       \
+    void CRV__NAME(name##_bent)(const crv__frame *f, int32_t x0, int32_t x1, int32_t y,  \
+                                float *out, float *const bent[3])                        \
+    {                                                                                    \
+        crv__bent_row(f, x0, x1, y, out, bent, within, inner_bent, general_bent);        \
     }
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What has a kernel in every instruction set: one line each. DEINTERLEAVED: methods with
- * a kernel in the deinterleaved structure (deinterleaved.h). */
+/* What has a kernel in every instruction set: one line each. BENT: methods with a kernel
+ * for bent normals; DEINTERLEAVED: methods with one in the deinterleaved structure
+ * (deinterleaved.h). */
 CRV__ESTIMATE(alchemy)
 CRV__ESTIMATE(bitmask)
 CRV__ESTIMATE(containment)
@@ -11,6 +12,10 @@ CRV__ESTIMATE(raymarch)
 CRV__ESTIMATE(ssao)
 CRV__ESTIMATE(vao)
 CRV__ESTIMATE(vo)
+CRV__BENT(bitmask)
+CRV__BENT(gtao)
+CRV__BENT(hsao)
+CRV__BENT(raymarch)
 CRV__MAP(bitmask, width)
 CRV__FILTER(bilateral13)
 CRV__FILTER(box4)

@@ -6,7 +6,7 @@
 #ifndef CRV_CPU_KERNELS_MARCH_H
 #define CRV_CPU_KERNELS_MARCH_H
 
-#include "cpu/kernels/lanes.h"
+#include "cpu/kernels/bent.h"
 
 CRV__INLINE void crv__lanes_tangents(crv__v3 n, crv__v3 *t, crv__v3 *b)
 {

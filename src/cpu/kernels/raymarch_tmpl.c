@@ -2,7 +2,8 @@
 /* methods/raymarch.c for the lanes of a vector. */
 #include "cpu/kernels/march.h"
 
-CRV__INLINE vf accessibility(const crv__frame *f, crv__shape shape, const crv__pixels *at)
+CRV__INLINE vf estimate(const crv__frame *f, crv__shape shape, const crv__pixels *at,
+                        crv__v3 *bent)
 {
     const crv__params *p = f->params;
     const crv__v3 origin = crv__lanes_lift(p, shape, at->P, at->n);
@@ -11,6 +12,7 @@ CRV__INLINE vf accessibility(const crv__frame *f, crv__shape shape, const crv__p
     const int32_t rays = p->normal_rays > 0 ? p->normal_rays : 1;
     const int32_t all = p->directions * rays;
     vf occlusion = vf_zero();
+    crv__lanes_sums sums = crv__lanes_no_sums();
     for (int32_t first = 0; first < all; first += CRV__MARCHES) {
         const int32_t count = all - first < CRV__MARCHES ? all - first : CRV__MARCHES;
         crv__v3 directions[CRV__MARCHES];
@@ -25,8 +27,19 @@ CRV__INLINE vf accessibility(const crv__frame *f, crv__shape shape, const crv__p
         crv__lanes_march(f, shape, at, origin, count, directions, weights);
         for (int32_t k = 0; k < count; k++)
             occlusion = occlusion + weights[k];
+        for (int32_t k = 0; bent && k < count; k++)
+            crv__lanes_bent_add(&sums, directions[k], vf_set(1), weights[k]);
     }
-    return vf_set(1) - occlusion / vf_set((float)all);
+    const vf A = vf_set(1) - occlusion / vf_set((float)all);
+    if (bent)
+        *bent = crv__lanes_bent_normal(&sums, at->n, A,
+                                       vf_set(CRV__BENT_COSINE * (float)all));
+    return A;
+}
+
+CRV__INLINE vf accessibility(const crv__frame *f, crv__shape shape, const crv__pixels *at)
+{
+    return estimate(f, shape, at, NULL);
 }
 
 CRV__INLINE int within(const crv__frame *f, const crv__pixels *at)
@@ -35,3 +48,5 @@ CRV__INLINE int within(const crv__frame *f, const crv__pixels *at)
 }
 
 CRV__ESTIMATE_KERNEL(raymarch, 1)
+
+CRV__BENT_KERNEL(raymarch)

@@ -4,7 +4,7 @@
 #ifndef CRV_CPU_KERNELS_SLICE_H
 #define CRV_CPU_KERNELS_SLICE_H
 
-#include "cpu/kernels/lanes.h"
+#include "cpu/kernels/bent.h"
 
 /* The largest share of the radius that has a weight. */
 #define CRV__BELOW_ONE 0.99999994f
@@ -17,7 +17,7 @@ typedef struct crv__lanes_site {
 
 typedef struct crv__lanes_slice {
     crv__v3 T;
-    vf b, weight, cos_tangent, total, inverse;
+    vf b, weight, cos_tangent, sin_tangent, total, inverse;
     vf step_x, step_y, length_px, jitter, sector_offset;
 } crv__lanes_slice;
 
@@ -44,14 +44,40 @@ CRV__INLINE crv__lanes_site crv__lanes_site_at(const crv__params *p, crv__shape 
     return site;
 }
 
+/* crv__slice_segment() */
+CRV__INLINE vf crv__lanes_segment(vf cosine, vf sine)
+{
+    const vf inner = vf_set(0.60547927f) - sine * vf_set(0.20501906f);
+    const vf Q = vf_set(1.57020562f) + sine * (vf_set(0.02568289f) + sine * inner);
+    return vf_set(1.57079633f) - cosine * Q;
+}
+
 /* crv__slice_measure() */
 CRV__INLINE vf crv__lanes_measure(const crv__params *p, vf a, vf b, vf cosine, vf sine)
 {
     if (p->weighting == CRV_WEIGHTING_UNIFORM)
         return vf_set(1) - cosine;
-    const vf inner = vf_set(0.60547927f) - sine * vf_set(0.20501906f);
-    const vf Q = vf_set(1.57020562f) + sine * (vf_set(0.02568289f) + sine * inner);
-    return vf_set(0.5f) * (a * sine * sine + b * (vf_set(1.57079633f) - cosine * Q));
+    return vf_set(0.5f) * (a * sine * sine + b * crv__lanes_segment(cosine, sine));
+}
+
+/* A vector of a slice: along T, along V. */
+typedef struct crv__v2 {
+    vf T, V;
+} crv__v2;
+
+/* crv__slice_vector() */
+CRV__INLINE crv__v2 crv__lanes_vector(const crv__params *p, vf a, vf b, vf cosine,
+                                      vf sine)
+{
+    if (p->weighting == CRV_WEIGHTING_UNIFORM)
+        return (crv__v2){vf_set(0.5f) * crv__lanes_segment(cosine, sine),
+                         vf_set(0.5f) * sine * sine};
+    const vf one = vf_set(1), third = vf_set(1.0f / 3);
+    const vf sine3 = sine * sine * sine, rest = one - cosine;
+    const vf along_T = rest * rest * (vf_set(2) + cosine),
+             along_V = rest * (one + cosine + cosine * cosine);
+    return (crv__v2){(a * sine3 + b * along_T) * third,
+                     (b * sine3 + a * along_V) * third};
 }
 
 /* crv__slice_share() */
@@ -78,8 +104,8 @@ CRV__INLINE crv__lanes_slice crv__lanes_slice_at(const crv__params *p,
     s.weight = one / squared;
     const vf inverse = one / vf_sqrt(site->a * site->a + s.b * s.b);
     s.cos_tangent = -s.b * inverse;
-    const vf total =
-        crv__lanes_measure(p, site->a, s.b, s.cos_tangent, site->a * inverse);
+    s.sin_tangent = site->a * inverse;
+    const vf total = crv__lanes_measure(p, site->a, s.b, s.cos_tangent, s.sin_tangent);
     s.total = vf_where(vf_lt(vf_set(1e-7f), total), total);
     s.inverse = one / total;
     /* Texels depend on these: rounded as the scalar code's. */
@@ -224,28 +250,59 @@ CRV__INLINE void crv__lanes_slice_point(const crv__params *p, crv__shape shape,
     *z = (crv__v3_dot(v, at->n) - s->b * *x) / site->a;
 }
 
-/* The blocked share of a slice's measure. */
+/* crv__slice_vectors */
+typedef struct crv__lanes_vectors {
+    crv__v2 open, blocked;
+} crv__lanes_vectors;
+
+/* Adds those of a slice of this weight. */
+CRV__INLINE void crv__lanes_add_vectors(crv__lanes_sums *sums, crv__v3 T, crv__v3 V,
+                                        vf weight, const crv__lanes_vectors *v)
+{
+    crv__v3 *open = &sums->open, *blocked = &sums->blocked;
+    *open = crv__v3_add_scaled(*open, T, weight * v->open.T);
+    *open = crv__v3_add_scaled(*open, V, weight * v->open.V);
+    *blocked = crv__v3_add_scaled(*blocked, T, weight * v->blocked.T);
+    *blocked = crv__v3_add_scaled(*blocked, V, weight * v->blocked.V);
+}
+
+/* The share of the hemisphere's mean direction in its measure. */
+CRV__INLINE vf crv__lanes_mean(const crv__params *p)
+{
+    return vf_set(p->weighting == CRV_WEIGHTING_COSINE ? CRV__BENT_COSINE
+                                                       : CRV__BENT_UNIFORM);
+}
+
+/* The blocked share of a slice's measure. vectors NULL: not wanted. */
 typedef vf (*crv__lanes_slice_fn)(const crv__frame *f, crv__shape shape,
                                   const crv__pixels *at, const crv__lanes_site *site,
-                                  const crv__lanes_slice *s);
+                                  const crv__lanes_slice *s, crv__lanes_vectors *vectors);
 
 /* crv__slices_open() */
 CRV__INLINE vf crv__lanes_slices_open(const crv__frame *f, crv__shape shape,
                                       const crv__pixels *at,
-                                      crv__lanes_slice_fn blocked_share)
+                                      crv__lanes_slice_fn blocked_share, crv__v3 *bent)
 {
     const crv__params *p = f->params;
     const crv__lanes_site site = crv__lanes_site_at(p, shape, at);
     vf blocked = vf_zero(), total = vf_zero();
+    crv__lanes_sums sums = crv__lanes_no_sums();
     for (int32_t k = 0; k < p->directions; k++) {
         const crv__lanes_slice s = crv__lanes_slice_at(p, at, &site, k);
-        const vf share = blocked_share(f, shape, at, &site, &s);
+        crv__lanes_vectors vectors;
+        const vf share = blocked_share(f, shape, at, &site, &s, bent ? &vectors : NULL);
         const vm counts = vf_lt(vf_zero(), s.total);
         blocked = blocked + vf_where(counts, s.weight * s.total * share);
         total = total + vf_where(counts, s.weight * s.total);
+        if (bent)
+            crv__lanes_add_vectors(&sums, s.T, site.V, vf_where(counts, s.weight),
+                                   &vectors);
     }
     const vf one = vf_set(1);
-    return vf_select(vf_lt(vf_zero(), total), one - blocked / total, one);
+    const vf A = vf_select(vf_lt(vf_zero(), total), one - blocked / total, one);
+    if (bent)
+        *bent = crv__lanes_bent_normal(&sums, at->n, A, crv__lanes_mean(p) * total);
+    return A;
 }
 
 /* Whether no sample of these pixels leaves the buffers. */

@@ -30,8 +30,10 @@ typedef struct crv__slice_view {
 /* What does not change from sample to sample. */
 typedef struct crv__group_slice {
     vf half_Tx, half_Ty, half_cx, half_cy;
+    crv__v3 T;
     vf b, b_over_a, cos_tangent, sin_tangent, total, inverse;
-    vf weight; /* times the total */
+    vf density; /* w; 0 where the slice's measure is nothing */
+    vf weight;  /* times the total */
 } crv__group_slice;
 
 CRV__INLINE crv__slice_view crv__slice_view_of(const crv__group_pixels *at,
@@ -79,6 +81,7 @@ CRV__INLINE crv__group_slice crv__group_slice_at(const crv__group_pixels *at,
     const vf DV = vf_fma(Dx, w->V.x, Dy * w->V.y), squared = one - DV * DV;
     const vf scale = vf_rsqrt(squared);
     const vf Tx = (Dx - DV * w->V.x) * scale, Ty = (Dy - DV * w->V.y) * scale;
+    s.T = (crv__v3){Tx, Ty, -DV * w->V.z * scale};
     s.b = vf_fma(at->n.x, Tx, vf_fma(at->n.y, Ty, -at->n.z * DV * w->V.z * scale));
     s.b_over_a = s.b * w->inverse_a;
     const vf half = vf_set(0.5f);
@@ -92,6 +95,7 @@ CRV__INLINE crv__group_slice crv__group_slice_at(const crv__group_pixels *at,
     s.total = crv__lanes_measure(w->params, w->a, s.b, s.cos_tangent, s.sin_tangent);
     const vm counts = vf_lt(vf_set(1e-7f), s.total);
     s.inverse = vf_where(counts, one / s.total);
+    s.density = vf_where(counts, scale * scale);
     s.weight = vf_where(counts, scale * scale * s.total);
     return s;
 }
@@ -131,27 +135,44 @@ CRV__INLINE vf crv__group_slice_depth(const crv__group_pixels *at,
 }
 
 /* sum_of_slices(): accessibility from a group's slices, by the template's `shape` and
- * blocked_share(). CRV__SLICE_SHAPE: it for one shape, compiled by itself. */
+ * blocked_share(); and the bent normal, if bent is not NULL. CRV__SLICE_SHAPE: for one
+ * shape, compiled by itself; CRV__SLICE_BENT_SHAPE: with bent normals. */
 #define CRV__SLICES_SUMMED                                                               \
     CRV__INLINE vf sum_of_slices(const crv__group_pixels *at, const crv__list *list,     \
-                                 shape c)                                                \
+                                 shape c, crv__v3 *bent)                                 \
     {                                                                                    \
         const crv__slice_view w = crv__slice_view_of(at, c.orthographic);                \
         const vf one = vf_set(1);                                                        \
         vf blocked = vf_zero(), total = vf_zero();                                       \
+        crv__lanes_sums sums = crv__lanes_no_sums();                                     \
         for (int32_t k = 0; k < at->di->slices; k++) {                                   \
             const crv__group_slice s = crv__group_slice_at(at, &w, k);                   \
-            const vf share = blocked_share(at, list, &w, &s, c, k);                      \
+            crv__lanes_vectors vectors;                                                  \
+            const vf share =                                                             \
+                blocked_share(at, list, &w, &s, c, k, bent ? &vectors : NULL);           \
             blocked = vf_fma(s.weight, share, blocked);                                  \
             total = total + s.weight;                                                    \
+            if (bent)                                                                    \
+                crv__lanes_add_vectors(&sums, s.T, w.V, s.density, &vectors);            \
         }                                                                                \
-        return vf_select(vf_lt(vf_zero(), total), one - blocked / total, one);           \
+        const vf A = vf_select(vf_lt(vf_zero(), total), one - blocked / total, one);     \
+        if (bent)                                                                        \
+            *bent = crv__lanes_bent_normal(&sums, at->n, A,                              \
+                                           crv__lanes_mean(w.params) * total);           \
+        return A;                                                                        \
     }
 
 #define CRV__SLICE_SHAPE(name, ...)                                                      \
     CRV__NOINLINE vf name(const crv__group_pixels *at, const crv__list *list)            \
     {                                                                                    \
-        return sum_of_slices(at, list, (shape){__VA_ARGS__});                            \
+        return sum_of_slices(at, list, (shape){__VA_ARGS__}, NULL);                      \
+    }
+
+#define CRV__SLICE_BENT_SHAPE(name, ...)                                                 \
+    CRV__NOINLINE vf name(const crv__group_pixels *at, const crv__list *list,            \
+                          crv__v3 *bent)                                                 \
+    {                                                                                    \
+        return sum_of_slices(at, list, (shape){__VA_ARGS__}, bent);                      \
     }
 
 #endif

@@ -5,6 +5,9 @@
 
 #define CRV__ESTIMATE(name)                                                              \
     void CRV__NAME(name)(const crv__frame *, int32_t, int32_t, int32_t, float *);
+#define CRV__BENT(name)                                                                  \
+    void CRV__NAME(name##_bent)(const crv__frame *, int32_t, int32_t, int32_t, float *,  \
+                                float *const[3]);
 #define CRV__MAP(method, name)                                                           \
     void CRV__NAME(name)(const crv__frame *, const crv__plane *, crv__tile);
 #define CRV__FILTER(name)                                                                \
@@ -14,6 +17,7 @@
     extern const crv__deinterleaved_method CRV__NAME(name##_deinterleaved);
 #include "cpu/kernels/list.h"
 #undef CRV__ESTIMATE
+#undef CRV__BENT
 #undef CRV__MAP
 #undef CRV__FILTER
 #undef CRV__DEINTERLEAVED
@@ -29,6 +33,7 @@ void CRV__NAME(normals_row)(const crv__params *, const crv__plane *, const crv__
 extern const crv__kernels CRV__NAME(kernels);
 const crv__kernels CRV__NAME(kernels) = {
 #define CRV__ESTIMATE(name)    .estimates[CRV__METHOD_##name] = CRV__NAME(name),
+#define CRV__BENT(name)        .bents[CRV__METHOD_##name] = CRV__NAME(name##_bent),
 #define CRV__MAP(method, name) .maps[CRV__METHOD_##method] = CRV__NAME(name),
 #define CRV__FILTER(name)      .filters[CRV__FILTER_##name] = CRV__NAME(name),
 #define CRV__DEINTERLEAVED(name)                                                         \
