@@ -118,10 +118,8 @@ static float filtered(float accessibility, float own, bool background)
     return isnan(own) ? own : clamped(accessibility); /* NaN: not part of the picture */
 }
 
-/* accessibility.data of the output NULL: bent normals alone. */
 static void filter_row(const tiles *t, int32_t x0, int32_t x1, int32_t y)
 {
-    const bool bent_only = !t->out->accessibility.data;
     const picture_row to = row_of(t->out, x0, y);
     for (int32_t x = x0; x < x1; x++) {
         const float own = *crv__plane_at(&t->input->accessibility, x, y);
@@ -129,8 +127,7 @@ static void filter_row(const tiles *t, int32_t x0, int32_t x1, int32_t y)
         crv__estimate e = {.accessibility = 1};
         if (!background && !isnan(own))
             e = t->filter->filter(t->work->frame, t->input, t->pass, x, y);
-        if (!bent_only)
-            to.accessibility[x - x0] = filtered(e.accessibility, own, background);
+        to.accessibility[x - x0] = filtered(e.accessibility, own, background);
         if (to.bent[0])
             put_bent(&to, x - x0, e.bent);
     }
@@ -333,6 +330,29 @@ static void filter_pass(const crv__work *work, int32_t pass, const crv__picture 
     run_tiles(&t);
 }
 
+/* Kernels keep what they filter in [0, 1], which is no range for components of vectors.
+ * They get (b + 1)/2 of these: of a mean the map is the mean. */
+static void fold_row(void *data, uint32_t index)
+{
+    const crv__plane *bent = data;
+    for (int k = 0; k < 3; k++) {
+        float *row = crv__plane_at(&bent[k], bent[k].x0, bent[k].y0 + (int32_t)index);
+        for (int32_t x = 0; x < bent[k].width; x++)
+            row[x] = 0.5f * row[x] + 0.5f;
+    }
+}
+
+static void unfold_tile(const crv__plane bent[3], crv__tile tile)
+{
+    for (int k = 0; k < 3; k++) {
+        for (int32_t y = tile.y0; y < tile.y1; y++) {
+            float *row = crv__plane_at(&bent[k], tile.x0, y);
+            for (int32_t x = 0; x < tile.x1 - tile.x0; x++)
+                row[x] = 2 * row[x] - 1;
+        }
+    }
+}
+
 static void run_filter_tile(void *data, uint32_t index)
 {
     const tiles *t = data;
@@ -345,6 +365,11 @@ static void run_filter_tile(void *data, uint32_t index)
     const int32_t x1 = x0 + CRV__FILTER_TILE_WIDTH, y1 = y0 + CRV__FILTER_TILE_HEIGHT;
     const crv__tile tile = {x0, x1 < right ? x1 : right, y0, y1 < bottom ? y1 : bottom};
     t->filter_kernel(t->work->frame, &t->input->accessibility, out, tile);
+    if (!t->out->bent[0].data)
+        return;
+    for (int k = 0; k < 3; k++)
+        t->filter_kernel(t->work->frame, &t->input->bent[k], &t->out->bent[k], tile);
+    unfold_tile(t->out->bent, tile);
 }
 
 /* What the host gives to be filtered alone has nothing beyond the guard band: kernels are
@@ -363,35 +388,24 @@ static crv__plane shown_part(const crv__work *work, const crv__plane *plane)
     return part;
 }
 
-/* All passes at once, from pictures[0] to pictures[1]: accessibility. */
+/* All passes at once, from pictures[0] to pictures[1]. */
 static void filter_with(const crv__work *work, crv__filter_kernel kernel,
                         const crv__picture pictures[2])
 {
-    const crv__picture input = {.accessibility =
-                                    shown_part(work, &pictures[0].accessibility)},
-                       out = {.accessibility =
-                                  shown_part(work, &pictures[1].accessibility)};
-    const int32_t width = out.accessibility.width, height = out.accessibility.height;
-    tiles t = {.work = work, .filter_kernel = kernel, .input = &input, .out = &out};
+    crv__picture shown[2] = {pictures[0], pictures[1]};
+    for (int i = 0; i < 2; i++)
+        shown[i].accessibility = shown_part(work, &pictures[i].accessibility);
+    if (work->with_bent)
+        crv__run_rows(work->setup->context, shown[0].bent[0].height, fold_row,
+                      shown[0].bent);
+    const int32_t width = shown[1].accessibility.width,
+                  height = shown[1].accessibility.height;
+    tiles t = {
+        .work = work, .filter_kernel = kernel, .input = &shown[0], .out = &shown[1]};
     t.columns = (width + CRV__FILTER_TILE_WIDTH - 1) / CRV__FILTER_TILE_WIDTH;
     const int32_t rows = (height + CRV__FILTER_TILE_HEIGHT - 1) / CRV__FILTER_TILE_HEIGHT;
     crv__run_parallel(work->setup->context, (uint32_t)t.columns * (uint32_t)rows,
                       run_filter_tile, &t);
-}
-
-/* The specification's passes, to and fro; of the bent normals alone if a kernel filters
- * accessibility. */
-static void filter_passes(const crv__work *work, const crv__picture pictures[2],
-                          bool bent_only)
-{
-    for (int32_t pass = 0; pass < work->setup->filter->passes; pass++) {
-        crv__picture input = pictures[pass % 2], to = pictures[(pass + 1) % 2];
-        if (bent_only) { /* the kernel leaves the estimate where it is */
-            input.accessibility = pictures[0].accessibility;
-            to.accessibility.data = NULL;
-        }
-        filter_pass(work, pass, &input, &to);
-    }
 }
 
 /* ---- plans ---- */
@@ -477,15 +491,17 @@ static crv_status run(const crv__work *given, const crv__picture given_pictures[
         pictures[i].bent[0].data = NULL;
     const crv__filter *filter = work.setup->filter;
     const crv__filter_kernel kernel = state_of(&work)->filter;
+    const int32_t passes = filter && !kernel ? filter->passes : 0;
     if (!work.filter_only)
         estimate(&work, &pictures[0]);
-    *result = pictures[filter ? filter->passes % 2 : 0];
-    if (filter && (!kernel || work.with_bent))
-        filter_passes(&work, pictures, kernel);
-    if (filter && kernel) {
+    if (kernel) {
         filter_with(&work, kernel, pictures);
-        result->accessibility = pictures[1].accessibility;
+        *result = pictures[1];
+        return CRV_OK;
     }
+    for (int32_t pass = 0; pass < passes; pass++)
+        filter_pass(&work, pass, &pictures[pass % 2], &pictures[(pass + 1) % 2]);
+    *result = pictures[passes % 2];
     return CRV_OK;
 }
 
