@@ -13,7 +13,7 @@
 
 /* Rays of a pass, and the standard error from which more of them tell nothing. */
 enum { PASS_RAYS = 8, PASSES_MIN = 2 };
-#define ERROR_ENOUGH 0.004
+#define ERROR_ENOUGH 0.01
 
 static bool is_surface(const tune_view *v, const float *depth, int32_t x, int32_t y)
 {

@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: MIT */
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -87,7 +86,7 @@ static const arg truth_rows[] = {
      .value = "N",
      ARG_RANGE(16, REFERENCE_MAX_RAYS),
      ARG_INTO(ARG_INT, tune_settings, rays),
-     .computed = "two fifths of the time",
+     .computed = "a fifth of the time for each view, or less if that is enough",
      .help = "rays for each of some ten thousand pixels; noise that they leave is told, "
              "and taken off the errors"},
 };
@@ -236,7 +235,7 @@ static int fit(tune_work *w, unsigned fits, tune_result *out)
                       .stop = tune_work_stop,
                       .user = &watch};
     if (!by_count || s->time_s.given) {
-        q.seconds = (1.0 - 2.0 * w->truth_share) * s->time_s.value;
+        q.seconds = (1.0 - w->truth_share) * s->time_s.value - w->truth_s;
         watch.seconds = by_count ? 0.0 : q.seconds;
     }
     watch.p = progress_begin(
@@ -249,24 +248,6 @@ static int fit(tune_work *w, unsigned fits, tune_result *out)
                 report_seconds() - watch.start,
                 out->finished ? "" : "; the search was not at its end");
     return EXIT_DONE;
-}
-
-static void print_error(const char *view, const char *options, const tune_error *e,
-                        double noise)
-{
-    /* Below the noise nothing is known. */
-    if (e->rmse > 0.0 || !(noise > 0.0))
-        printf("%-8s %-8s %9.5f  %+9.5f\n", view, options, e->rmse, e->bias);
-    else
-        printf("%-8s %-8s  <%.5f  %+9.5f\n", view, options, sqrt(noise), e->bias);
-}
-
-static void print_pair(const tune_work *w, int index, const tune_error *before,
-                       const tune_error *after)
-{
-    const char *name = index == TUNE_FITTED ? "fitted" : "other";
-    print_error(name, "before", before, w->view[index].noise);
-    print_error(name, "after", after, w->view[index].noise);
 }
 
 /* The other view with both sets of options. */
@@ -287,33 +268,11 @@ static int compare_other(tune_work *w, const tune_result *found, voice *log)
     log->muted = false;
     if (!report_ok(w->r, first, "other view") || !report_ok(w->r, second, "other view"))
         return EXIT_FAILED;
-    print_pair(w, TUNE_OTHER, &before, &after);
+    tune_print_pair(w, TUNE_OTHER, &before, &after);
     if (after.mean_square > before.mean_square)
         report_warning(w->r,
                        "the other view got worse, so these options suit the fitted view "
                        "alone; fit less with --fit, or a view that shows more");
-    return EXIT_DONE;
-}
-
-static int write_options(const tune_work *w, const tune_result *found)
-{
-    const char *path = w->s->in.view.output;
-    char text[OPTION_TEXT_SIZE];
-    if (!path)
-        return EXIT_DONE;
-    FILE *stream = fopen(path, "w");
-    const bool written = stream
-                         && fprintf(stream, "# crevice tune: RMSE %.5f, before %.5f\n%s",
-                                    found->after.rmse, found->before.rmse,
-                                    option_lines(&found->options, text))
-                                > 0;
-    const bool closed = stream && !fclose(stream);
-    if (!written || !closed) {
-        report_error(w->r, "%s: cannot be written: %s; check its folder and the disk",
-                     path, strerror(errno));
-        return EXIT_FAILED;
-    }
-    report_info(w->r, "wrote %s", path);
     return EXIT_DONE;
 }
 
@@ -353,11 +312,11 @@ static int tune(tune_work *w, unsigned fits, voice *log)
     if (result != EXIT_DONE)
         return result;
     printf("view     options       RMSE       bias\n");
-    print_pair(w, TUNE_FITTED, &found.before, &found.after);
+    tune_print_pair(w, TUNE_FITTED, &found.before, &found.after);
     /* Whatever becomes of the other view, the options are there. */
     const int other = interrupt_waits() ? EXIT_DONE : compare_other(w, &found, log);
     printf("options:%s\n", option_flags(&found.options, flags));
-    result = write_options(w, &found);
+    result = tune_write_options(w, &found);
     return result == EXIT_DONE ? other : result;
 }
 

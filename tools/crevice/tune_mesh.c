@@ -46,6 +46,8 @@ static int trace(tune_work *w, int index)
     if (tune_view_trace(v, &t, &w->r->logger) != 0)
         return EXIT_FAILED;
     if (index == TUNE_FITTED)
+        w->truth_s = report_seconds() - start;
+    if (index == TUNE_FITTED)
         report_info(w->r, "truth: crevice reference%s",
                     target_flags(&t.target, flags, sizeof flags));
     report_info(w->r, "truth: %d pixels, %d rays each, standard error %.3f: %.2f s",

@@ -31,7 +31,8 @@ typedef struct tune_work {
     scene_gbuffer cast[TUNE_VIEWS];
     crv_gbuffer *gbuffer[TUNE_VIEWS];
     tune_view view[TUNE_VIEWS];
-    double truth_share; /* of the time, that each truth gets */
+    double truth_share; /* of the time, that each truth gets at most */
+    double truth_s;     /* what the fitted view's took, seconds */
 } tune_work;
 
 /* Whether an interrupt waits, for tune_trace.stop and tune_request.stop. */
@@ -45,5 +46,10 @@ int tune_mesh_other(tune_work *w, bool *shows);
 /* tune_frame.c: the same of frames. */
 int tune_frame_load(tune_work *w);
 int tune_frame_other(tune_work *w, bool *shows);
+
+/* tune_print.c: rows of a view's errors, and the file of options if one was asked for. */
+void tune_print_pair(const tune_work *w, int index, const tune_error *before,
+                     const tune_error *after);
+int tune_write_options(const tune_work *w, const tune_result *found);
 
 #endif

@@ -20,7 +20,7 @@ typedef struct job {
     const wish *w;
     const tuning_request *q;
     tuning *out;
-    double told; /* when, report_seconds() */
+    double begun, told; /* when, report_seconds() */
 } job;
 
 static void tell(job *j)
@@ -71,17 +71,24 @@ static bool open_view(job *j, crv_gbuffer *gbuffer, const buffers *b, tune_view 
                           TUNE_PIXELS);
 }
 
+/* On a view whose truth is there, in what the other view's leaves of the time. */
+static bool search_options(job *j, tune_view *v)
+{
+    const tune_request q = {.view = v,
+                            .start = j->w->half[j->q->half].options,
+                            .fits = TUNE_USUAL,
+                            .seconds = (1.0 - TRUTH_SHARE) * j->q->seconds
+                                       - (report_seconds() - j->begun),
+                            .watch = watch,
+                            .stop = stop,
+                            .user = j};
+    return tune_fit(&q, &j->out->found) == CRV_OK;
+}
+
 static bool fit(job *j)
 {
     engine *e = j->e;
     tune_view v = {0};
-    const tune_request q = {.view = &v,
-                            .start = j->w->half[j->q->half].options,
-                            .fits = TUNE_USUAL,
-                            .seconds = (1.0 - 2.0 * TRUTH_SHARE) * j->q->seconds,
-                            .watch = watch,
-                            .stop = stop,
-                            .user = j};
     bool done = open_view(j, e->estimator.gbuffer, e->buffers, &v);
     if (done && v.count == 0)
         done = fail(j, "no surface is in view");
@@ -89,7 +96,7 @@ static bool fit(job *j)
         done = fail(j, "stopped before anything was fitted");
     else if (done && tune_view_is_open(&v))
         done = fail(j, "nothing in view is occluded; try a larger radius");
-    else if (!done || tune_fit(&q, &j->out->found) != CRV_OK)
+    else if (!done || !search_options(j, &v))
         done = fail(j, "out of memory; make the window smaller");
     tune_view_free(&v);
     return done;
@@ -142,7 +149,7 @@ static void check_other(job *j)
 void tuning_run(engine *e, const wish *w, const tuning_request *q, tuning *out)
 {
     wish still = *w;
-    job j = {.e = e, .w = &still, .q = q, .out = out};
+    job j = {.e = e, .w = &still, .q = q, .out = out, .begun = report_seconds()};
     *out = (tuning){.phase = TUNING_RUNS, .half = q->half};
     still.moving = false;
     e->problem[0] = '\0';
