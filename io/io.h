@@ -134,14 +134,6 @@ void io_copy_window(const io_image *from, const float *source, const io_image *t
  * path is not a folder. For finding out before a long computation. */
 int io_check_writable(const char *path, const crv_logger *log);
 
-/* Replaces what must not reach a terminal or a log in a text from outside by '?': control
- * characters, those of UTF-8 and those that turn the direction of text included, and
- * bytes that are no UTF-8. */
-void io_clean_text(char *text);
-
-/* The bytes of the UTF-8 character at `at`; 0 if there is none. */
-size_t io_character_length(const char *at);
-
 /* Whether both paths name one file, links followed; neither need be there yet. For
  * outputs that would replace each other, or an input. */
 bool io_is_same_file(const char *a, const char *b);

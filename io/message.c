@@ -17,7 +17,7 @@ static void send_line(const crv_logger *log, crv_log_level level, const char *pa
         used = 0;
     vsnprintf(line + used, sizeof line - (size_t)used, format, arguments);
     /* File names and channel names come from outside: they must not break the line. */
-    io_clean_text(line);
+    text_clean(line);
     log->fn(log->user, level, line);
 }
 

@@ -12,6 +12,7 @@
 #include "internal.h"
 #include "system/clock.h"
 #include "system/process.h"
+#include "system/text.h"
 
 enum { RECORD_MESSAGE = 1, RECORD_RESULT = 2, MAX_LINE = 1023, MAX_MESSAGES = 100 };
 enum { FIRST_BYTES = 1 << 20 };
@@ -184,7 +185,7 @@ static import_end receive_message(int fd, const import_wait *wait, const record 
     for (size_t i = 0; i < head->size; i++)
         if (!line[i])
             line[i] = ' ';
-    scene_clean_line(line);
+    text_clean(line);
     *errors += head->level == CRV_LOG_ERROR;
     if (log && log->fn)
         log->fn(log->user, (crv_log_level)head->level, line);

@@ -34,10 +34,6 @@ typedef struct scene_axes {
 /* False if the view's numbers make no camera. */
 bool scene_axes_of_view(const scene_view *view, const double origin[3], scene_axes *out);
 
-/* Control characters, those of UTF-8 included, and bytes that are no UTF-8 become
- * spaces. */
-void scene_clean_line(char *line);
-
 #ifdef __GNUC__
 #define SCENE_PRINTF(f, a) __attribute__((format(printf, f, a)))
 #else

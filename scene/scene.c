@@ -10,35 +10,10 @@
 #include <omp.h>
 #endif
 
+#include "system/text.h"
+
 /* Smaller scenes would underflow inside the ray caster. */
 #define MIN_EXTENT 1e-12
-
-/* The bytes of a UTF-8 character by its first; 0: no character begins so. */
-static int character_length(unsigned char first)
-{
-    return first < 0x80   ? 1
-           : first < 0xc2 ? 0
-           : first < 0xe0 ? 2
-           : first < 0xf0 ? 3
-           : first < 0xf5 ? 4
-                          : 0;
-}
-
-void scene_clean_line(char *line)
-{
-    for (char *c = line; *c;) {
-        const unsigned char first = (unsigned char)c[0], second = (unsigned char)c[1];
-        const int length = character_length(first);
-        int whole = 1;
-        while (whole < length && ((unsigned char)c[whole] & 0xc0u) == 0x80u)
-            whole++;
-        const bool is_control =
-            first < 0x20 || first == 0x7f || (first == 0xc2 && second < 0xa0);
-        if (!length || whole < length || is_control)
-            memset(c, ' ', (size_t)whole);
-        c += whole;
-    }
-}
 
 void scene_log(const crv_logger *log, crv_log_level level, const char *name,
                const char *format, ...)
@@ -53,7 +28,7 @@ void scene_log(const crv_logger *log, crv_log_level level, const char *name,
     va_start(arguments, format);
     vsnprintf(line + used, sizeof line - (size_t)used, format, arguments);
     va_end(arguments);
-    scene_clean_line(line);
+    text_clean(line);
     log->fn(log->user, level, line);
 }
 

@@ -31,6 +31,18 @@ static void test_text(void **state)
     assert_int_equal(text_distance("", "depth"), 5);
 }
 
+static void test_texts_from_outside(void **state)
+{
+    /* ESC, DEL, U+009B, U+202E, a byte alone, a surrogate; and letters that stay. */
+    char text[] =
+        "a\033b\177c\302\233d\342\200\256e\377f\355\240\200 \303\244\342\202\254";
+    (void)state;
+    text_clean(text);
+    assert_string_equal(text, "a?b?c?d?e?f??? \303\244\342\202\254");
+    assert_int_equal(text_character_length("\342\202\254"), 3);
+    assert_int_equal(text_character_length("\300\257"), 0); /* a slash, overlong */
+}
+
 static void test_files(void **state)
 {
     const char *path = support_path("a"), *pipe = support_path("pipe");
@@ -151,9 +163,8 @@ static void test_threads(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_text),
-        cmocka_unit_test(test_files),
-        cmocka_unit_test(test_processes),
+        cmocka_unit_test(test_text),    cmocka_unit_test(test_texts_from_outside),
+        cmocka_unit_test(test_files),   cmocka_unit_test(test_processes),
         cmocka_unit_test(test_threads),
     };
     return cmocka_run_group_tests(tests, support_setup, support_teardown);

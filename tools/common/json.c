@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io.h"
+#include "system/text.h"
 
 /* U+FFFD stands for bytes that are no character. */
 #define REPLACEMENT "\xef\xbf\xbd"
@@ -29,7 +29,7 @@ void json_add_text(cJSON *object, const char *key, const char *text)
         return;
     }
     while (*text != '\0') {
-        const size_t length = io_character_length(text);
+        const size_t length = text_character_length(text);
         const size_t count = length > 0 ? length : replacement;
         memcpy(to, length > 0 ? text : REPLACEMENT, count);
         to += count;

@@ -6,6 +6,7 @@
 
 #include "io.h"
 #include "system/clock.h"
+#include "system/text.h"
 
 enum { LINE_SIZE = 8192 };
 
@@ -15,7 +16,7 @@ static void write_line(const char *prefix, const char *line)
 {
     char clean[LINE_SIZE];
     snprintf(clean, sizeof clean, "%s", line);
-    io_clean_text(clean);
+    text_clean(clean);
     fprintf(stderr, "%s%s\n", prefix, clean);
 }
 
