@@ -5,12 +5,12 @@
 
 /* Every reader of assimp. Others go by their content. */
 const char *const fuzz_mesh_extensions[] = {
-    "obj",    "ply",  "stl",  "gltf", "glb",  "fbx",     "dae", "3ds", "x",    "off",
-    "assbin", "pbrt", "bin",  "3d",   "3mf",  "ac",      "amf", "ase", "b3d",  "blend",
-    "bvh",    "cob",  "csm",  "dxf",  "enff", "hmp",     "ifc", "iqm", "irr",  "irrmesh",
-    "lwo",    "lws",  "m3d",  "md2",  "md3",  "md5mesh", "mdc", "mdl", "mesh", "mesh.xml",
-    "ms3d",   "ndo",  "nff",  "pk3",  "pmx",  "q3o",     "raw", "sib", "smd",  "stp",
-    "ter",    "x3d",  "x3db", "xgl",  NULL};
+    "obj",    "ply",  "stl", "gltf", "glb",  "fbx",     "dae", "3ds", "x",    "off",
+    "assbin", "pbrt", "bin", "3d",   "3mf",  "ac",      "amf", "ase", "b3d",  "blend",
+    "bvh",    "cob",  "csm", "dxf",  "enff", "hmp",     "ifc", "iqm", "irr",  "irrmesh",
+    "lwo",    "lws",  "m3d", "md2",  "md3",  "md5mesh", "mdc", "mdl", "mesh", "mesh.xml",
+    "ms3d",   "ndo",  "nff", "ogex", "pk3",  "pmx",     "q3o", "raw", "sib",  "smd",
+    "stp",    "ter",  "x3d", "x3db", "xgl",  NULL};
 enum { COUNT = sizeof fuzz_mesh_extensions / sizeof *fuzz_mesh_extensions - 1 };
 
 static void look_at(const scene *s)

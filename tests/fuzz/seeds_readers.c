@@ -95,6 +95,13 @@ static const struct {
                    "<vertex><position x=\"1\" y=\"0\" z=\"0\"/></vertex>\n"
                    "<vertex><position x=\"0\" y=\"1\" z=\"0\"/></vertex>\n"
                    "</vertexbuffer></geometry>\n</submesh>\n</submeshes>\n</mesh>\n"},
+    {"m.ogex",
+     "Metric (key = \"distance\") {float {1}}\nMetric (key = \"up\") {string "
+     "{\"y\"}}\nGeometryNode $node1 {\nName {string {\"t\"}}\nObjectRef {ref "
+     "{$geometry1}}\nTransform {float[16] {{1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1}}}"
+     "\n}\nGeometryObject $geometry1 {\nMesh (primitive = \"triangles\") {\n"
+     "VertexArray (attrib = \"position\") {float[3] {{0,0,0},{1,0,0},{0,1,0}}}\n"
+     "IndexArray {unsigned_int32[3] {{0,1,2}}}\n}\n}\n"},
     {"m.cob", "Caligari V00.01ALH             \nPolH V0.06 Id 1 Parent 0 Size 00000300\n"
               "Name t,0\ncenter 0 0 0\nx axis 1 0 0\ny axis 0 1 0\nz axis 0 0 1\n"
               "Transform\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\nWorld Vertices 3\n0 0 0\n"
