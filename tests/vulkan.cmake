@@ -21,7 +21,7 @@ add_test(NAME vulkan_half_deinterleaved COMMAND test_vulkan_agreement --seed 1 -
     --cases ${crevice_vulkan_cases})
 
 # The suites of the CPU, unchanged.
-foreach(suite conformance closed_forms filters)
+foreach(suite conformance closed_forms filters bent)
     add_test(NAME vulkan_${suite} COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/on_vulkan.sh
         $<TARGET_FILE:test_vulkan_agreement> $<TARGET_FILE:test_${suite}>)
     list(APPEND crevice_vulkan_tests vulkan_${suite})
