@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* Results of frames that were rendered larger, by hand. */
+/* Results of frames rendered larger, or that are a part of their picture, by hand. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <cmocka.h>
 #include <math.h>
 
+#include "frame_facts.h"
 #include "shrink.h"
 
 /* A frame of one depth layer, whose pixels the caller owns. */
@@ -136,10 +138,32 @@ static void test_bent_normals(void **state)
     io_image_free(&ao);
 }
 
+/* A picture of the display window is open beside the data window, and still says how it
+ * was made, which --skip-existing reads. */
+static void test_fill_display(void **state)
+{
+    const float values[2] = {0.25f, 0.5f};
+    float depth[2] = {1, 1};
+    io_frame frame = make_frame(depth, 2, 1);
+    report r;
+    (void)state;
+    report_init(&r);
+    io_image ao = make_ao(&frame, values, 2, 1);
+    ao.data_x = 1;
+    ao.display_width = 4;
+    snprintf(ao.made, sizeof ao.made, "by hand");
+    assert_int_equal(facts_fill_display(&ao, &r), EXIT_DONE);
+    assert_int_equal(ao.width, 4);
+    expect(&ao, (const float[]){1.0f, 0.25f, 0.5f, 1.0f}, 4);
+    assert_string_equal(ao.made, "by hand");
+    io_image_free(&ao);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_coverage), cmocka_unit_test(test_overscan),
-        cmocka_unit_test(test_guard_band), cmocka_unit_test(test_bent_normals)};
+        cmocka_unit_test(test_guard_band), cmocka_unit_test(test_bent_normals),
+        cmocka_unit_test(test_fill_display)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -19,7 +19,8 @@ target_compile_definitions(test_tool_camera PRIVATE _XOPEN_SOURCE=700)
 target_include_directories(test_tool_camera PRIVATE ${tool_dir} ${PROJECT_SOURCE_DIR}/tools)
 
 crevice_test(test_tool_shrink
-    SOURCES test_tool_shrink.c ${tool_dir}/shrink.c LIBS crevice_common)
+    SOURCES test_tool_shrink.c ${tool_dir}/shrink.c ${tool_dir}/frame_facts.c
+    LIBS crevice_common)
 target_include_directories(test_tool_shrink
     PRIVATE ${tool_dir} ${PROJECT_SOURCE_DIR}/tools)
 
