@@ -271,22 +271,43 @@ static void check_range(const crv_image *image, const char *what)
             }
 }
 
+static void check_lengths(const crv_image *image)
+{
+    for (int32_t y = 0; y < image->height; y++)
+        for (int32_t x = 0; x < image->width; x++) {
+            float square = 0.0f;
+            for (int32_t c = 0; c < 3; c++) {
+                const float n = *crv_image_at(image, x, y, c);
+                square += n * n;
+            }
+            /* Rounding of three squares of floats; 0 is background. */
+            FUZZ_CHECK(square == 0.0f || fabsf(square - 1.0f) < 1e-4f,
+                       "squared length %g", (double)square);
+        }
+}
+
 static void check_normals(fuzz_bytes *in, crv_gbuffer *g, const crv_gbuffer_desc *d)
 {
     pixels normals = make_pixels(in, d->width, d->height, 3);
     if (crv_gbuffer_get_normals(g, &normals.image) == CRV_OK)
-        for (int32_t y = 0; y < d->height; y++)
-            for (int32_t x = 0; x < d->width; x++) {
-                float square = 0.0f;
-                for (int32_t c = 0; c < 3; c++) {
-                    const float n = *crv_image_at(&normals.image, x, y, c);
-                    square += n * n;
-                }
-                /* Rounding of three squares of floats; 0 is background. */
-                FUZZ_CHECK(square == 0.0f || fabsf(square - 1.0f) < 1e-4f,
-                           "squared length %g", (double)square);
-            }
+        check_lengths(&normals.image);
     free(normals.block);
+}
+
+/* Plans without bent normals refuse. */
+static void run_bent(fuzz_bytes *in, crv_plan *plan, crv_gbuffer *g, int32_t width,
+                     int32_t height)
+{
+    pixels bent = make_pixels(in, width, height, 3);
+    crv_result result;
+    crv_result_init(&result, sizeof result);
+    result.bent_normal = bent.image;
+    if (crv_plan_run_result(plan, g, &result) == CRV_OK)
+        check_lengths(&bent.image);
+    spoil(in, &result.bent_normal);
+    if (memcmp(&result.bent_normal, &bent.image, sizeof bent.image))
+        crv_plan_run_result(plan, g, &result);
+    free(bent.block);
 }
 
 static void run(fuzz_bytes *in, crv_plan *plan, crv_gbuffer *g, const crv_gbuffer_desc *d,
@@ -324,6 +345,7 @@ static void run(fuzz_bytes *in, crv_plan *plan, crv_gbuffer *g, const crv_gbuffe
                         "gathered: %d, %d", x, y);
         free(depths.block);
         free(gathered.block);
+        run_bent(in, plan, g, width, height);
     }
     free(result.block);
 }
