@@ -418,6 +418,86 @@ static void test_explanation(void **state)
     close_bench(&b);
 }
 
+static bool never(void *user)
+{
+    (void)user;
+    return false;
+}
+
+/* hbao with D directions and S steps reads no more than D S texels, each within the
+ * radius, none of them twice, and more directions read more. On the floor in front of the
+ * wall some of them count, and all of those rise over the floor. Far from the wall none
+ * counts. */
+static void test_samples(void **state)
+{
+    (void)state;
+    bench b;
+    shown s;
+    samples found;
+    crv_context_desc desc;
+    crv_context *context = NULL;
+    assert_int_equal(crv_context_desc_init(&desc, sizeof desc), CRV_OK);
+    desc.threads = desc.exact = 1;
+    assert_int_equal(crv_context_create(&desc, &context), CRV_OK);
+    open_bench(&b, "builtin:corner");
+    b.wish.width = 320;
+    b.wish.height = 180;
+    b.wish.view = (scene_view){.eye = {1, 5, 0.5}, .target = {1, 0, 0}, .up = {0, 1, 0}};
+    b.wish.view.vfov_rad = 0.5f;
+    render(&b, &s);
+    const double px = 90.0 / tan(0.25) / sqrt(25.25);    /* as in test_explanation */
+    const int32_t x = (int32_t)lround(160.0 - 0.8 * px); /* 0.2 from the wall */
+    crv_options o = options_of("hbao");
+    o.radius = 0.6f;
+    o.steps = 5;
+    int32_t before = 0;
+    for (o.directions = 4; o.directions <= 8; o.directions += 4) {
+        assert_true(samples_find(context, s.buffers, &o, x, 90, never, NULL, &found));
+        assert_true(found.is_whole);
+        assert_true(found.count <= o.directions * o.steps);
+        assert_true(found.count >= o.directions * o.steps / 2);
+        assert_true(found.count > before);
+        before = found.count;
+        int32_t counting = 0;
+        for (int32_t i = 0; i < found.count; i++) {
+            const sample *at = &found.list[i];
+            assert_true(hypot(at->x - x, at->y - 90) <= 0.6 * px + 2.0);
+            for (int32_t k = 0; k < i; k++)
+                assert_true(at->x != found.list[k].x || at->y != found.list[k].y);
+            counting += at->counts;
+            /* The wall is on the left, where the floor ends at x = 0. */
+            if (at->counts)
+                assert_true(at->x < 160.0 - (1.0 - 0.1) * px);
+        }
+        assert_true(counting > 0 && counting < found.count);
+    }
+    assert_true(samples_find(context, s.buffers, &o, 250, 90, never, NULL, &found));
+    for (int32_t i = 0; i < found.count; i++)
+        assert_false(found.list[i].counts);
+    shown_free(&s);
+    /* Every method is explained, as part of a picture. */
+    b.wish.explains = true;
+    b.wish.explained_x = x;
+    b.wish.explained_y = 90;
+    for (int32_t i = 0; crv_method_at(i); i++) {
+        b.wish.half[0].options = options_of(crv_method_at(i)->name);
+        b.wish.half[0].options.radius = 0.3f;
+        render(&b, &s);
+        assert_true(s.more_follows);
+        engine_complete(&b.engine, &s, never, NULL);
+        assert_false(s.more_follows);
+        assert_non_null(s.samples);
+        assert_true(s.samples->count > 0);
+        shown_free(&s);
+        render(&b, &s);
+        assert_false(s.more_follows); /* known already */
+        assert_true(s.samples->count > 0);
+        shown_free(&s);
+    }
+    close_bench(&b);
+    crv_context_destroy(context);
+}
+
 static void test_commands(void **state)
 {
     (void)state;
@@ -462,6 +542,7 @@ int main(void)
         cmocka_unit_test(test_lit_frame),
         cmocka_unit_test(test_moving_is_coarse),
         cmocka_unit_test(test_explanation),
+        cmocka_unit_test(test_samples),
         cmocka_unit_test(test_commands),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -79,6 +79,13 @@ canvas difference.png
 command right
 options right
 probe 320 300
+overlay on
+wait
+canvas plain.png
+key x
+point 320 300
+wait
+canvas explained.png
 screenshot window.png
 quit
 END
@@ -103,6 +110,8 @@ at_least "$(number rmse)" 0.01 "difference of two views"
 # tool does not tell background from open surfaces, the window does.
 mv lit.png shown_lit.png
 mv difference.png shown_difference.png
+good compare --json explained.png plain.png --channel R
+at_least "$(number max_error)" 0.1 "what explains a pixel"
 run_said 3
 run_said 4
 for channel in R G B; do

@@ -17,6 +17,27 @@ void app_ask(app *a)
     a->asked = session_ask(&a->session);
 }
 
+void app_explain(app *a)
+{
+    wish *w = &a->session.wish;
+    int32_t x, y;
+    const bool explains = a->explains && a->pointer_x >= 0.0
+                          && canvas_pixel(a, a->pointer_x, a->pointer_y, &x, &y);
+    if (!explains) {
+        w->explains = false;
+        return;
+    }
+    const int half = a->pointer_x >= a->split * gtk_widget_get_width(a->canvas);
+    const bool same = w->explains && w->explained_half == half && w->explained_x == x
+                      && w->explained_y == y;
+    w->explains = true;
+    w->explained_half = half;
+    w->explained_x = x;
+    w->explained_y = y;
+    if (!same)
+        app_ask(a);
+}
+
 static gboolean on_still(gpointer user)
 {
     app *a = user;

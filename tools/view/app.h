@@ -49,6 +49,9 @@ typedef struct app {
 
 /* app.c: a change of the wish was made: asks for the picture. */
 void app_ask(app *a);
+/* The pixel under the pointer, or what is wanted of it, is another: asks for its samples
+ * if they are drawn. */
+void app_explain(app *a);
 /* The view changed: coarse pictures until it is still for a while. */
 void app_move(app *a);
 /* A line for the status bar, which stays until the next. */
@@ -83,6 +86,7 @@ void canvas_place(const app *a, double *scale_x, double *scale_y, double *x, dou
 /* The widget's size in device px. */
 void canvas_size(const app *a, int32_t *width, int32_t *height);
 void canvas_fit(app *a);
+void canvas_enter(app *a);
 /* What GTK was given of the picture before. */
 void canvas_forget(app *a);
 

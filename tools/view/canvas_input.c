@@ -70,6 +70,14 @@ void canvas_fit(app *a)
     redraw(a);
 }
 
+void canvas_enter(app *a)
+{
+    if (!is_mesh(a))
+        return;
+    session_enter(&a->session);
+    app_move(a);
+}
+
 static void set_split(app *a, double split)
 {
     a->split = fmin(fmax(split, 0.0), 1.0);
@@ -141,6 +149,7 @@ static void on_motion(GtkEventControllerMotion *motion, double x, double y, gpoi
     gtk_widget_set_cursor_from_name(a->canvas,
                                     fabs(x - line) < grip_px ? "col-resize" : NULL);
     probe_tell(a);
+    app_explain(a);
     if (a->explains)
         redraw(a);
 }
@@ -238,8 +247,9 @@ static bool zoom_key(app *a, guint key)
     return true;
 }
 
-static const char *const explained = "blue: the radius; yellow to red: the horizon of "
-                                     "each direction, the redder the higher";
+static const char *const legend =
+    "circle: the radius; lines: horizons, redder is higher; dots: texels that are read, "
+    "orange if they count";
 
 bool canvas_key(app *a, guint key, bool shift)
 {
@@ -255,9 +265,13 @@ bool canvas_key(app *a, guint key, bool shift)
         return true;
     case GDK_KEY_x:
         a->explains = !a->explains;
-        app_tell(a, "%s", a->explains ? explained : "");
+        app_tell(a, "%s", a->explains ? legend : "");
+        app_explain(a);
         redraw(a);
         return true;
+    case GDK_KEY_c:
+        canvas_enter(a);
+        return is_mesh(a);
     case GDK_KEY_f:
     case GDK_KEY_Home:
         canvas_fit(a);

@@ -112,6 +112,25 @@ static void texel_centre(const app *a, int32_t x, int32_t y, double *out_x, doub
     *out_y = (top + (y + 0.5) * scale_y) / factor;
 }
 
+/* The texels that the method reads. */
+static void draw_samples(const app *a, cairo_t *c, int32_t x, int32_t y)
+{
+    const samples *s = a->shown.samples;
+    if (!s || s->x != x || s->y != y)
+        return;
+    for (int32_t i = 0; i < s->count; i++) {
+        const sample *at = &s->list[i];
+        double px, py;
+        texel_centre(a, at->x, at->y, &px, &py);
+        cairo_set_source_rgba(c, 0.0, 0.0, 0.0, 0.8);
+        cairo_arc(c, px, py, at->counts ? 4.0 : 3.0, 0.0, 2.0 * G_PI);
+        cairo_fill(c);
+        cairo_set_source_rgb(c, 1.0, at->counts ? 0.6 : 1.0, at->counts ? 0.1 : 1.0);
+        cairo_arc(c, px, py, at->counts ? 3.0 : 2.0, 0.0, 2.0 * G_PI);
+        cairo_fill(c);
+    }
+}
+
 /* The radius around the pixel, and the horizon of each direction: the redder, the higher.
  */
 static void draw_explanation(const app *a, cairo_t *c)
@@ -141,9 +160,8 @@ static void draw_explanation(const app *a, cairo_t *c)
         cairo_move_to(c, px, py);
         cairo_line_to(c, hx, hy);
         cairo_stroke(c);
-        cairo_arc(c, hx, hy, 3.0, 0.0, 2.0 * G_PI);
-        cairo_fill(c);
     }
+    draw_samples(a, c, x, y);
 }
 
 /* White with dark edges, and a dot to drag it by. */
@@ -152,11 +170,16 @@ static void snapshot_line(GtkSnapshot *to, double x, int height)
     static const GdkRGBA edge = {0.0f, 0.0f, 0.0f, 0.5f};
     const graphene_rect_t wide = rectangle(x - 1.0, 0.0, 3.0, height);
     const graphene_rect_t narrow = rectangle(x, 0.0, 1.0, height);
+    const graphene_rect_t ring = rectangle(x - 5.5, 0.5 * height - 6.0, 12.0, 12.0);
     const graphene_rect_t box = rectangle(x - 4.5, 0.5 * height - 5.0, 10.0, 10.0);
-    GskRoundedRect dot;
+    GskRoundedRect dot, around;
+    gsk_rounded_rect_init_from_rect(&around, &ring, 6.0f);
     gsk_rounded_rect_init_from_rect(&dot, &box, 5.0f);
     gtk_snapshot_append_color(to, &edge, &wide);
     gtk_snapshot_append_color(to, &white, &narrow);
+    gtk_snapshot_push_rounded_clip(to, &around);
+    gtk_snapshot_append_color(to, &edge, &ring);
+    gtk_snapshot_pop(to);
     gtk_snapshot_push_rounded_clip(to, &dot);
     gtk_snapshot_append_color(to, &white, &box);
     gtk_snapshot_pop(to);

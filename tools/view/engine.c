@@ -34,6 +34,7 @@ void shown_free(shown *s)
         pool_release(s->half[i].truth_plane);
     }
     buffers_release(s->buffers);
+    pool_release(s->samples);
     *s = (shown){0};
 }
 
@@ -45,6 +46,7 @@ shown shown_hold(const shown *s)
         pool_hold(s->half[i].truth_plane);
     }
     buffers_hold(s->buffers);
+    pool_hold(s->samples);
     return *s;
 }
 
@@ -63,11 +65,12 @@ static void take_line(void *user, crv_log_level level, const char *line)
 int engine_open(engine *e, source *from, truth *t, const common_settings *common,
                 report *r)
 {
-    *e = (engine){.source = from, .truth = t, .r = r};
+    *e = (engine){.source = from, .truth = t, .common = common, .r = r};
     e->quiet = *r;
     e->quiet.logger = (crv_logger){take_line, e};
     e->planes = pool_open();
-    if (!e->planes)
+    e->lists = pool_open();
+    if (!e->planes || !e->lists)
         return report_no_memory(r);
     /* The library's own loops: those of the tool tell how far long estimates are. */
     const crv_allocator usual = {0};
@@ -80,6 +83,8 @@ void engine_close(engine *e)
         estimation_free(&e->half[i]);
     halves_forget(e);
     pool_close(e->planes);
+    pool_close(e->lists);
+    crv_context_destroy(e->single);
     buffers_release(e->buffers);
     estimate_close(&e->estimator);
 }

@@ -17,14 +17,24 @@ typedef struct seen_truth {
 typedef struct painted {
     uint32_t *pixels; /* held; NULL: none */
     half_look look;
-    float *plane[HALVES]; /* held; the second only of differences */
-    size_t known;         /* the pixels from there on are not known yet */
+    /* Held. The second: of differences, or what stands in for pixels that are not known.
+     */
+    float *plane[HALVES];
+    size_t known; /* the pixels from there on are not known yet */
     double heat_scale;
 } painted;
+
+/* The samples that were found last. */
+typedef struct explained {
+    samples *samples; /* held; NULL: none */
+    int half;
+    crv_options options;
+} explained;
 
 typedef struct engine {
     source *source;
     truth *truth; /* NULL: none is made */
+    const common_settings *common;
     report *r;
     report quiet; /* gets what the library logs, for wish.problem */
     estimator estimator;
@@ -35,10 +45,12 @@ typedef struct engine {
     int32_t coarseness;
     double cast_ms, full_cast_ms; /* the last; of a full picture, 0: not known */
     float *dark, *light;          /* of lit pictures of `buffers`; NULL: not made */
-    pool *planes;
+    pool *planes, *lists;         /* lists: of samples */
     float *open; /* held; 1 for each pixel of `buffers`; NULL: not made */
     seen_truth seen[HALVES];
     painted painted[HALVES];
+    crv_context *single; /* of one thread, for samples; NULL: not made */
+    explained explained;
     char problem[PROBLEM_SIZE];
     bool muted; /* nothing that is logged is of interest */
 } engine;
@@ -56,7 +68,8 @@ bool engine_place(engine *e, const wish *w);
  * out->problem. The caller frees *out. */
 bool engine_render(engine *e, const wish *w, shown *out);
 
-/* The numbers of a picture whose numbers follow. */
-void engine_measure(shown *s);
+/* What follows a picture: the numbers, and samples if they are wanted and not yet found.
+ * is_stale(user) is asked now and then: true gives these up. */
+void engine_complete(engine *e, shown *s, bool (*is_stale)(void *user), void *user);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * explain.h: what lies around a pixel within the radius, for the picture to show: where
- * the horizon is in each direction. Every texel on the way is looked at, so this is what
- * the methods sample, and not which samples they take.
+ * the horizon is in each direction. Every texel on the way is looked at; which of them
+ * methods take is in samples.h.
  */
 #ifndef VIEW_EXPLAIN_H
 #define VIEW_EXPLAIN_H

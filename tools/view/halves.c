@@ -4,12 +4,16 @@
 #include <math.h>
 #include <string.h>
 
+#include "common/device.h"
+
 enum { MOVING_RAYS = 4 };
 
 void halves_forget(engine *e)
 {
     pool_release(e->open);
     e->open = NULL;
+    pool_release(e->explained.samples);
+    e->explained = (explained){0};
     for (int i = 0; i < HALVES; i++) {
         pool_release(e->seen[i].plane);
         e->seen[i] = (seen_truth){0};
@@ -164,12 +168,68 @@ static bool can_measure(const shown *s, int half)
            && s->half[half].truth.passes > 1;
 }
 
-void engine_measure(shown *s)
+/* Settled pictures of methods are explained. */
+static bool can_explain(const engine *e, const wish *w)
+{
+    return w->explains && w->half[w->explained_half].content == HALF_METHOD
+           && halves_are_settled(e, w);
+}
+
+/* Those that are known already; else more follows. */
+static bool take_explained(engine *e, const wish *w, shown *out)
+{
+    const explained *known = &e->explained;
+    if (!known->samples || known->half != w->explained_half
+        || known->samples->x != w->explained_x || known->samples->y != w->explained_y
+        || !estimate_same_options(&known->options, &w->half[known->half].options))
+        return false;
+    out->samples = pool_hold(known->samples);
+    return true;
+}
+
+static bool open_single(engine *e)
+{
+    common_settings common = *e->common;
+    const crv_logger silent = {0};
+    const crv_allocator usual = {0};
+    common.device = NULL;
+    common.exact = true;
+    common.threads = (arg_int){.given = true, .value = 1};
+    return e->single
+           || device_context_in(&common, &silent, &usual, &e->quiet, &e->single)
+                  == EXIT_DONE;
+}
+
+/* An empty list if the pixel shows no surface. */
+static void explain(engine *e, shown *s, bool (*is_stale)(void *user), void *user)
+{
+    const wish *w = &s->wish;
+    const crv_options *options = &w->half[w->explained_half].options;
+    samples *found = pool_take(e->lists, sizeof *found);
+    if (!found || !open_single(e)) {
+        pool_release(found);
+        return;
+    }
+    if (!samples_find(e->single, s->buffers, options, w->explained_x, w->explained_y,
+                      is_stale, user, found))
+        *found = (samples){.x = w->explained_x, .y = w->explained_y, .is_whole = true};
+    if (is_stale(user)) {
+        pool_release(found);
+        return;
+    }
+    pool_release(e->explained.samples);
+    e->explained = (explained){found, w->explained_half, *options};
+    s->samples = pool_hold(found);
+}
+
+void engine_complete(engine *e, shown *s, bool (*is_stale)(void *user), void *user)
 {
     for (int i = 0; i < HALVES; i++)
         if (can_measure(s, i))
             measure(s->buffers, &s->half[i]);
-    s->numbers_follow = false;
+    if (can_explain(e, &s->wish) && !s->samples)
+        explain(e, s, is_stale, user);
+    s->more_follows = false;
 }
 
 bool halves_make(engine *e, const wish *w, shown *out)
@@ -181,9 +241,11 @@ bool halves_make(engine *e, const wish *w, shown *out)
             done = read_truth(e, i, h);
         h->accessibility = done ? make_content(e, w, i, h) : NULL;
         done = h->accessibility;
-        out->numbers_follow |= can_measure(out, i);
+        out->more_follows |= can_measure(out, i);
     }
     for (int i = 0; i < HALVES && done; i++)
         done = halves_paint(e, w, i, out);
+    if (done && can_explain(e, w) && !take_explained(e, w, out))
+        out->more_follows = true;
     return done;
 }

@@ -79,6 +79,9 @@ static painted ground_of(const engine *e, const wish *w, const shown *s, int hal
             p.plane[i] = s->half[i].accessibility;
         p.heat_scale = w->heat_scale;
         p.known = other < p.known ? other : p.known;
+    } else if (p.known < halves_plane_count(e)
+               && w->half[1 - half].content == HALF_METHOD) {
+        p.plane[1] = s->half[1 - half].accessibility;
     }
     return p;
 }
@@ -103,7 +106,8 @@ static bool paint_anew(engine *e, painted *p)
                   p->known, p->pixels);
     else
         paint_grey(p->plane[0], p->known, p->pixels);
-    paint_unknown(p->known, halves_plane_count(e), e->buffers->width, p->pixels);
+    paint_unknown(p->look == LOOK_DIFFERENCE ? NULL : p->plane[1], p->known,
+                  halves_plane_count(e), e->buffers->width, p->pixels);
     return true;
 }
 

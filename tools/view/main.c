@@ -16,7 +16,8 @@ static void take_picture(app *a)
         return;
     const bool same = number == a->shown_number && s.buffers == a->shown.buffers
                       && s.half[0].pixels == a->shown.half[0].pixels
-                      && s.half[1].pixels == a->shown.half[1].pixels;
+                      && s.half[1].pixels == a->shown.half[1].pixels
+                      && s.samples == a->shown.samples;
     a->shown_number = number;
     if (!s.buffers) {
         app_tell(a, "%s", s.problem);
@@ -30,7 +31,7 @@ static void take_picture(app *a)
         a->taken_s = report_seconds();
         gtk_widget_queue_draw(a->canvas);
     }
-    if (s.numbers_follow)
+    if (s.more_follows)
         return;
     for (int i = 0; i < HALVES; i++)
         panel_show_numbers(a->panel[i]);

@@ -136,6 +136,17 @@ void option_row_init(option_row *row, const crv_option *option, double usual,
     g_free(title);
 }
 
+/* Whether the option has an effect: two numbers belong to one falloff each. Methods with
+ * a falloff of their own have no choice. */
+static bool has_effect(const crv_option *option, const crv_options *options)
+{
+    if (!crv_option_applies(crv_option_find("falloff"), options->method, NULL))
+        return true;
+    if (strcmp(option->key, "tau") == 0)
+        return options->falloff == CRV_FALLOFF_EXPONENTIAL;
+    return strcmp(option->key, "u") != 0 || options->falloff == CRV_FALLOFF_ALCHEMY;
+}
+
 void option_row_sync(option_row *row, const crv_options *options)
 {
     const double value = crv_options_get(options, row->option);
@@ -146,6 +157,7 @@ void option_row_sync(option_row *row, const crv_options *options)
     sync_tooltip(row, options->method);
     if (gtk_widget_get_visible(row->widget) != applies)
         gtk_widget_set_visible(row->widget, applies);
+    gtk_widget_set_sensitive(row->widget, has_effect(row->option, options));
     option_value_text(row->option, value, text);
     if (row->entry && strcmp(gtk_editable_get_text(GTK_EDITABLE(row->entry)), text) != 0)
         gtk_editable_set_text(GTK_EDITABLE(row->entry), text);

@@ -17,16 +17,20 @@ static uint32_t pixel(uint8_t r, uint8_t g, uint8_t b)
     return 0xff000000u | (uint32_t)r << 16 | (uint32_t)g << 8 | b;
 }
 
+/* io_quantise(), which is too far away to be made a loop of vectors. */
+static inline uint32_t grey_of(float accessibility)
+{
+    const float value = accessibility > 0.0f ? accessibility : 0.0f;
+    return (uint32_t)((value < 1.0f ? value : 1.0f) * 255.0f + 0.5f);
+}
+
 void paint_grey(const float *accessibility, size_t count, uint32_t *out)
 {
 #ifdef _OPENMP
 #pragma omp parallel for
 #endif
     for (size_t i = 0; i < count; i++) {
-        /* io_quantise(), which is too far away to be made a loop of vectors. */
-        const float value = accessibility[i] > 0.0f ? accessibility[i] : 0.0f;
-        const uint32_t grey = (uint32_t)((value < 1.0f ? value : 1.0f) * 255.0f + 0.5f);
-        out[i] = 0xff000000u | grey * 0x010101u;
+        out[i] = 0xff000000u | grey_of(accessibility[i]) * 0x010101u;
     }
 }
 
@@ -80,15 +84,19 @@ void paint_difference(const float *a, const float *b, const uint8_t *surface,
 }
 
 /* A row of squares, 8 pixels wide. */
-static void paint_squares(int32_t from, int32_t width, int32_t y, uint32_t *row)
+static void paint_squares(const float *instead, int32_t from, int32_t width, int32_t y,
+                          uint32_t *row)
 {
     for (int32_t x = from; x < width; x++) {
-        const uint8_t grey = (x / 8 + y / 8) % 2 == 0 ? 96 : 112;
-        row[x] = pixel(grey, grey, grey);
+        uint32_t grey = (x / 8 + y / 8) % 2 == 0 ? 96 : 112;
+        if (instead)
+            grey = (grey + grey_of(instead[x])) / 2;
+        row[x] = 0xff000000u | grey * 0x010101u;
     }
 }
 
-void paint_unknown(size_t first, size_t count, int32_t width, uint32_t *out)
+void paint_unknown(const float *instead, size_t first, size_t count, int32_t width,
+                   uint32_t *out)
 {
     const int32_t rows = (int32_t)(count / (size_t)width);
     const int32_t first_row = (int32_t)(first / (size_t)width);
@@ -96,7 +104,9 @@ void paint_unknown(size_t first, size_t count, int32_t width, uint32_t *out)
 #ifdef _OPENMP
 #pragma omp parallel for
 #endif
-    for (int32_t y = first_row; y < rows; y++)
-        paint_squares(y == first_row ? first_column : 0, width, y,
-                      out + (size_t)y * (size_t)width);
+    for (int32_t y = first_row; y < rows; y++) {
+        const size_t begin = (size_t)y * (size_t)width;
+        paint_squares(instead ? instead + begin : NULL, y == first_row ? first_column : 0,
+                      width, y, out + begin);
+    }
 }

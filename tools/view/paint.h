@@ -18,7 +18,9 @@ void paint_lit(const float *dark, const float *light, const float *accessibility
 void paint_difference(const float *a, const float *b, const uint8_t *surface,
                       double scale, size_t count, uint32_t *out);
 
-/* The pixels from `first` on, of which nothing is known yet. */
-void paint_unknown(size_t first, size_t count, int32_t width, uint32_t *out);
+/* The pixels from `first` on, of which nothing is known yet: squares over `instead`, an
+ * accessibility; NULL: over nothing. */
+void paint_unknown(const float *instead, size_t first, size_t count, int32_t width,
+                   uint32_t *out);
 
 #endif

@@ -30,6 +30,7 @@ static bool is_still(script *s)
 {
     const app *a = s->app;
     return a->asked > 0 && !a->settle && a->shown_number >= a->asked
+           && !a->shown.more_follows
            && (a->painted_number >= a->asked || !a->shown.buffers);
 }
 
@@ -296,6 +297,7 @@ static const char *do_point(script *s, char **word)
     a->pointer_x = (left + (at[0] + 0.5) * scale_x) / factor;
     a->pointer_y = (top + (at[1] + 0.5) * scale_y) / factor;
     probe_tell(a);
+    app_explain(a);
     gtk_widget_queue_draw(a->canvas);
     return NULL;
 }

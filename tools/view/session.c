@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "session.h"
 
+#include <math.h>
 #include <string.h>
 
 /* Called by the thread of the truth. */
@@ -149,4 +150,24 @@ void session_fit(session *s)
         scene_frame(s->source.model,
                     w->view.vfov_rad > 0.0f ? w->view.vfov_rad : 0.785398f,
                     (float)w->width / (float)w->height, &s->wish.view);
+}
+
+void session_enter(session *s)
+{
+    scene_view *v = &s->wish.view;
+    double lower[3], upper[3];
+    int longest = -1, up = 0;
+    if (!s->source.model)
+        return;
+    scene_bounds(s->source.model, lower, upper);
+    for (int i = 1; i < 3; i++)
+        if (fabs(v->up[i]) > fabs(v->up[up]))
+            up = i;
+    for (int i = 0; i < 3; i++) {
+        v->eye[i] = v->target[i] = 0.5 * (lower[i] + upper[i]);
+        if (i != up
+            && (longest < 0 || upper[i] - lower[i] > upper[longest] - lower[longest]))
+            longest = i;
+    }
+    v->target[longest] = upper[longest];
 }

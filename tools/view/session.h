@@ -46,5 +46,7 @@ bool session_take_over(session *s, const tuning *t);
 
 /* The view that shows the whole mesh. */
 void session_fit(session *s);
+/* A level one from its middle along its longer side. */
+void session_enter(session *s);
 
 #endif

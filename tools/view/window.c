@@ -26,6 +26,12 @@ static void on_fit(GtkButton *button, gpointer user)
     canvas_fit(user);
 }
 
+static void on_enter(GtkButton *button, gpointer user)
+{
+    (void)button;
+    canvas_enter(user);
+}
+
 static void on_dark(GtkToggleButton *button, gpointer user)
 {
     app_set_dark(user, gtk_toggle_button_get_active(button));
@@ -70,8 +76,9 @@ static const char *const help_text =
     "  arrows: turn (frames: move) Shift+arrows: move\n"
     "  w s a d e q: fly            i j k l: look around\n"
     "  + -: nearer, farther        f or Home: all in view\n"
+    "  c: from the middle of it\n"
     "  [ ]: the line               Page Up, Page Down: frames\n"
-    "  x: horizons around the pixel under the pointer\n\n"
+    "  x: what the pixel under the pointer is made of\n\n"
     "Everywhere\n"
     "  F6: picture or sidebar      Ctrl+1, Ctrl+2: left, right half\n"
     "  Ctrl+Shift+C: copy command  Ctrl+E: copy options\n"
@@ -195,6 +202,9 @@ static GtkWidget *make_bar(app *a)
     GtkWidget *bar = gtk_header_bar_new();
     GtkWidget *keys = gtk_button_new_with_label("?");
     add_button(bar, "Fit", "all in view (f)", G_CALLBACK(on_fit), a);
+    if (a->session.source.model)
+        add_button(bar, "Inside", "from the middle of it (c): rooms",
+                   G_CALLBACK(on_enter), a);
     add_button(bar, "Copy command",
                "the command that writes what this half shows (Ctrl+Shift+C)",
                G_CALLBACK(on_copy), a);

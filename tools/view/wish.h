@@ -5,6 +5,7 @@
 
 #include "buffers.h"
 #include "pool.h"
+#include "samples.h"
 #include "truth.h"
 
 enum { HALVES = 2, PROBLEM_SIZE = 512 };
@@ -40,6 +41,9 @@ typedef struct wish {
     int32_t frame;         /* of a shot: its place in the list */
     half_wish half[HALVES];
     double heat_scale; /* the difference that gets the darkest colours */
+    /* Whose samples of which pixel are wanted. */
+    bool explains;
+    int32_t explained_half, explained_x, explained_y;
 } wish;
 
 typedef struct half_shown {
@@ -61,7 +65,8 @@ typedef struct shown {
     int32_t coarseness; /* each pixel stands for so many of each side */
     half_shown half[HALVES];
     double cast_ms;             /* of the last ray casting or reading */
-    bool numbers_follow;        /* the same picture comes once more, measured */
+    bool more_follows;          /* the same picture comes once more, with numbers */
+    samples *samples;           /* held; of the wish's pixel; NULL: none */
     double began_s, made_s;     /* when it was begun and done, report_seconds() */
     char problem[PROBLEM_SIZE]; /* why it is not what was wished for; "" if it is */
 } shown;

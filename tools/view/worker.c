@@ -44,6 +44,16 @@ static void publish(worker *k, shown *s, uint64_t number)
     k->ready(k->user);
 }
 
+/* Another wish waits. */
+static bool is_stale(void *user)
+{
+    worker *k = user;
+    monitor_enter(k->monitor);
+    const bool stale = k->quit || k->asked != k->served;
+    monitor_leave(k->monitor);
+    return stale;
+}
+
 /* again: the wish was served before. */
 static void serve(worker *k, const wish *w, uint64_t number, bool again)
 {
@@ -58,15 +68,15 @@ static void serve(worker *k, const wish *w, uint64_t number, bool again)
         truth_hold(t, false);
     if (!done)
         return;
-    shown measured = {0};
-    const bool numbers_follow = made.numbers_follow;
-    if (numbers_follow)
-        measured = shown_hold(&made);
+    shown complete = {0};
+    const bool more_follows = made.more_follows;
+    if (more_follows)
+        complete = shown_hold(&made);
     publish(k, &made, number);
-    if (!numbers_follow)
+    if (!more_follows)
         return;
-    engine_measure(&measured);
-    publish(k, &measured, number);
+    engine_complete(k->engine, &complete, is_stale, k);
+    publish(k, &complete, number);
 }
 
 static void tuning_told(void *user, const tuning *so_far)
