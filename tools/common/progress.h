@@ -16,7 +16,6 @@ typedef struct progress {
     int width; /* of the line on the terminal */
 } progress;
 
-/* from: what was done before. */
 /* Whether work of so many seconds is told of. */
 bool progress_is_long(double seconds);
 
@@ -24,6 +23,7 @@ bool progress_is_long(double seconds);
  * "compare: about 21 s". */
 void progress_announce(report *r, const char *name, double seconds);
 
+/* from: what was done before. */
 progress progress_begin(report *r, const char *name, int64_t from, int64_t total);
 void progress_show(progress *p, int64_t done);
 void progress_end(progress *p);
