@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "vulkan_scene.h"
+#include "vulkan_stage.h"
 
 #define DEPTHS(format, kind) VK_FORMAT_##format, CRV_DEPTH_##kind
 #define NORMALS(format, kind, space)                                                     \
@@ -129,60 +129,45 @@ static void frames_in_flight_do_not_mix(void **state)
 
 static void plans_run_on_the_queue_of_the_host(void **state)
 {
-    engine *g = *state;
-    scene_lines log = {0};
-    const scene_encoding *e = &ENCODINGS[0];
-    crv_context *context = scene_context(g, &log);
-    scene *s = malloc(sizeof *s);
-    assert_non_null(s);
-    scene_make(s, e, 1);
-    float *got = scene_planned(context, s, e), *wanted = scene_scalar(s, e);
-    scene_assert_agrees(s, e, got, wanted);
+    stage *t = stage_open_guarded(*state, &ENCODINGS[0]);
+    float *got = scene_planned(t->context, t->s, &t->e),
+          *wanted = scene_scalar(t->s, &t->e);
+    scene_assert_agrees(t->s, &t->e, got, wanted);
     free(got);
     free(wanted);
-    free(s);
-    crv_context_destroy(context);
+    stage_close(t);
 }
 
 static void times_are_of_every_pass(void **state)
 {
-    engine *g = *state;
-    scene_lines log = {0};
-    const scene_encoding *e = &ENCODINGS[0];
-    crv_context *context = scene_context(g, &log);
-    const crv_options options = scene_options(e);
-    crv_vulkan_pass_desc desc = scene_pass_desc(e);
+    stage *t = stage_open_guarded(*state, &ENCODINGS[0]);
+    const crv_options options = scene_options(&t->e);
+    crv_vulkan_pass_desc desc = scene_pass_desc(&t->e);
     crv_device_time times[CRV_MAX_DEVICE_TIMES];
-    crv_vulkan_pass *pass = NULL, *plain = NULL;
+    crv_vulkan_pass *pass = NULL, *plain = stage_usual_pass(t);
     int32_t count = -1;
-    scene *s = malloc(sizeof *s);
-    assert_non_null(s);
-    scene_make(s, e, 1);
-    scene_images in = scene_upload(g, s, e);
-    const crv_vulkan_frame frame = scene_frame(s, e, &in);
-    assert_int_equal(crv_vulkan_pass_create(context, &options, &s->desc, &desc, &plain),
-                     CRV_OK);
+    const crv_vulkan_frame frame = scene_frame(t->s, &t->e, &t->in);
     assert_int_equal(crv_vulkan_pass_times(plain, 0, times, &count),
                      CRV_ERROR_UNSUPPORTED);
     desc.timestamps = VK_TRUE;
-    assert_int_equal(crv_vulkan_pass_create(context, &options, &s->desc, &desc, &pass),
-                     CRV_OK);
-    log.errors = 0;
+    assert_int_equal(
+        crv_vulkan_pass_create(t->context, &options, &t->s->desc, &desc, &pass), CRV_OK);
+    t->log.errors = 0;
     assert_int_equal(crv_vulkan_pass_times(pass, 0, times, &count), CRV_ERROR_NOT_READY);
-    assert_int_equal(log.errors, 1);
+    assert_int_equal(t->log.errors, 1);
     assert_int_equal(crv_vulkan_pass_times(pass, 2, times, &count),
                      CRV_ERROR_INVALID_ARGUMENT);
     assert_int_equal(crv_vulkan_pass_times(pass, 0, NULL, &count),
                      CRV_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(crv_vulkan_pass_record(pass, engine_begin(g, 0), &frame), CRV_OK);
-    engine_submit(g, 0);
-    log.errors = 0;
+    assert_int_equal(crv_vulkan_pass_record(pass, engine_begin(t->g, 0), &frame), CRV_OK);
+    engine_submit(t->g, 0);
+    t->log.errors = 0;
     crv_status status;
     while ((status = crv_vulkan_pass_times(pass, 0, times, &count))
            == CRV_ERROR_NOT_READY)
         continue; /* nothing is wrong, and nothing is logged */
-    assert_int_equal(log.errors, 0);
-    engine_wait(g);
+    assert_int_equal(t->log.errors, 0);
+    engine_wait(t->g);
     assert_int_equal(status, CRV_OK);
     assert_int_equal(count, 4); /* depth and normals, hbao, two passes of the filter */
     assert_string_equal(times[0].name, "depth and normals");
@@ -195,9 +180,7 @@ static void times_are_of_every_pass(void **state)
     assert_true(sum > 0 && sum < 60000);
     crv_vulkan_pass_destroy(pass);
     crv_vulkan_pass_destroy(plain);
-    scene_free(g, &in);
-    free(s);
-    crv_context_destroy(context);
+    stage_close(t);
 }
 
 static void a_plan_has_no_times_before_its_first_run(void **state)
@@ -447,31 +430,16 @@ static void bad_settings_of_plans_are_refused_with_one_line(void **state)
 /* It stays with a line, and so does what was made with it. */
 static void a_context_is_not_destroyed_before_its_passes(void **state)
 {
-    engine *g = *state;
-    scene_lines log = {0};
-    const scene_encoding *e = &ENCODINGS[0];
-    crv_context *context = scene_context(g, &log);
-    const crv_options options = scene_options(e);
-    const crv_vulkan_pass_desc desc = scene_pass_desc(e);
-    crv_vulkan_pass *pass = NULL;
-    scene *s = malloc(sizeof *s);
-    assert_non_null(s);
-    scene_make(s, e, 1);
-    scene_images in = scene_upload(g, s, e);
-    assert_int_equal(crv_vulkan_pass_create(context, &options, &s->desc, &desc, &pass),
-                     CRV_OK);
-    crv_context_destroy(context);
-    assert_int_equal(log.errors, 1);
-    assert_non_null(strstr(log.last, "destroy them first"));
-    const crv_vulkan_frame frame = scene_frame(s, e, &in);
-    assert_int_equal(crv_vulkan_pass_record(pass, engine_begin(g, 0), &frame), CRV_OK);
-    engine_submit(g, 0);
-    engine_wait(g);
+    stage *t = stage_open_guarded(*state, &ENCODINGS[0]);
+    crv_vulkan_pass *pass = stage_usual_pass(t);
+    crv_context_destroy(t->context);
+    assert_int_equal(t->log.errors, 1);
+    assert_non_null(strstr(t->log.last, "destroy them first"));
+    const crv_vulkan_frame frame = scene_frame(t->s, &t->e, &t->in);
+    stage_draw(t, pass, &frame);
     crv_vulkan_pass_destroy(pass);
-    crv_context_destroy(context); /* or the layer misses it when the device goes */
-    assert_int_equal(log.errors, 1);
-    scene_free(g, &in);
-    free(s);
+    assert_int_equal(t->log.errors, 1);
+    stage_close(t); /* or the layer misses the context when the device goes */
 }
 
 static void what_lavapipe_would_break_off_is_refused_there(void **state)
@@ -506,31 +474,20 @@ static void what_lavapipe_would_break_off_is_refused_there(void **state)
 
 static void bad_frames_are_refused_with_one_line(void **state)
 {
-    engine *g = *state;
-    scene_lines log = {0};
-    crv_context *context = scene_context(g, &log);
-    const scene_encoding *e = &ENCODINGS[0];
-    const crv_options options = scene_options(e);
-    const crv_vulkan_pass_desc desc = scene_pass_desc(e);
-    crv_vulkan_pass *pass = NULL;
-    scene *s = malloc(sizeof *s);
-    assert_non_null(s);
-    scene_make(s, e, 1);
-    scene_images in = scene_upload(g, s, e);
-    assert_int_equal(crv_vulkan_pass_create(context, &options, &s->desc, &desc, &pass),
-                     CRV_OK);
-    const VkCommandBuffer commands = engine_begin(g, 0);
+    stage *t = stage_open_guarded(*state, &ENCODINGS[0]);
+    crv_vulkan_pass *pass = stage_usual_pass(t);
+    const VkCommandBuffer commands = engine_begin(t->g, 0);
     crv_vulkan_frame f;
 #define REFUSED(change)                                                                  \
     do {                                                                                 \
-        f = scene_frame(s, e, &in);                                                      \
+        f = scene_frame(t->s, &t->e, &t->in);                                            \
         change;                                                                          \
-        assert_refused(&log, crv_vulkan_pass_record(pass, commands, &f),                 \
+        assert_refused(&t->log, crv_vulkan_pass_record(pass, commands, &f),              \
                        CRV_ERROR_INVALID_ARGUMENT);                                      \
     } while (0)
     REFUSED(f.struct_size = 0);
     REFUSED(f.index = -1);
-    REFUSED(f.index = desc.frames);
+    REFUSED(f.index = scene_pass_desc(&t->e).frames);
     REFUSED(f.depth[0].view = VK_NULL_HANDLE);
     REFUSED(f.depth[0].layout = VK_IMAGE_LAYOUT_UNDEFINED);
     REFUSED(f.depth[0].layout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL);
@@ -542,19 +499,17 @@ static void bad_frames_are_refused_with_one_line(void **state)
     REFUSED(f.camera.fx_px = NAN);
     REFUSED(f.depth_encoding.z_near = 0);
 #undef REFUSED
-    f = scene_frame(s, e, &in);
-    assert_refused(&log, crv_vulkan_pass_record(pass, NULL, &f),
+    f = scene_frame(t->s, &t->e, &t->in);
+    assert_refused(&t->log, crv_vulkan_pass_record(pass, NULL, &f),
                    CRV_ERROR_INVALID_ARGUMENT);
-    assert_refused(&log, crv_vulkan_pass_record(pass, commands, NULL),
+    assert_refused(&t->log, crv_vulkan_pass_record(pass, commands, NULL),
                    CRV_ERROR_INVALID_ARGUMENT);
     assert_int_equal(crv_vulkan_pass_record(NULL, commands, &f),
                      CRV_ERROR_INVALID_ARGUMENT);
-    engine_submit(g, 0); /* nothing was recorded: valid, and empty */
-    engine_wait(g);
+    engine_submit(t->g, 0); /* nothing was recorded: valid, and empty */
+    engine_wait(t->g);
     crv_vulkan_pass_destroy(pass);
-    scene_free(g, &in);
-    free(s);
-    crv_context_destroy(context);
+    stage_close(t);
 }
 
 static void bad_hosts_are_refused_with_one_line(void **state)

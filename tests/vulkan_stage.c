@@ -16,14 +16,28 @@ const scene_encoding STAGE_USUAL = {.name = "usual",
                                     .method = "hbao",
                                     .filter = "bilateral13"};
 
-stage *stage_open(engine *g, const scene_encoding *e, int width, int height)
+static stage *stage_empty(engine *g, const scene_encoding *e)
 {
     stage *t = calloc(1, sizeof *t);
     assert_non_null(t);
     *t = (stage){.g = g, .e = *e, .s = malloc(sizeof *t->s)};
     assert_non_null(t->s);
     t->context = scene_context(t->g, &t->log);
+    return t;
+}
+
+stage *stage_open(engine *g, const scene_encoding *e, int width, int height)
+{
+    stage *t = stage_empty(g, e);
     scene_make_sized(t->s, e, 1, width, height);
+    t->in = scene_upload(t->g, t->s, e);
+    return t;
+}
+
+stage *stage_open_guarded(engine *g, const scene_encoding *e)
+{
+    stage *t = stage_empty(g, e);
+    scene_make(t->s, e, 1);
     t->in = scene_upload(t->g, t->s, e);
     return t;
 }
@@ -46,6 +60,16 @@ crv_vulkan_pass *stage_pass(const stage *t, const crv_options *options, int fram
     crv_gbuffer_desc_init(&size, sizeof size, width, height);
     assert_int_equal(crv_vulkan_pass_create(t->context, options, &size, &desc, &pass),
                      CRV_OK);
+    return pass;
+}
+
+crv_vulkan_pass *stage_usual_pass(const stage *t)
+{
+    const crv_options options = scene_options(&t->e);
+    const crv_vulkan_pass_desc desc = scene_pass_desc(&t->e);
+    crv_vulkan_pass *pass = NULL;
+    assert_int_equal(
+        crv_vulkan_pass_create(t->context, &options, &t->s->desc, &desc, &pass), CRV_OK);
     return pass;
 }
 

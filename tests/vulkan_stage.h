@@ -18,10 +18,14 @@ typedef struct stage {
 extern const scene_encoding STAGE_USUAL;
 
 stage *stage_open(engine *g, const scene_encoding *e, int width, int height);
+/* With a guard band, at an odd origin, as scene_make() has it. */
+stage *stage_open_guarded(engine *g, const scene_encoding *e);
 void stage_close(stage *t);
 
 crv_vulkan_pass *stage_pass(const stage *t, const crv_options *options, int frames,
                             int width, int height);
+/* For the scene as it is, with its usual options. */
+crv_vulkan_pass *stage_usual_pass(const stage *t);
 
 /* Records a frame and waits for it; its picture, which the caller frees. */
 void stage_draw(const stage *t, crv_vulkan_pass *pass, const crv_vulkan_frame *frame);
