@@ -65,6 +65,10 @@ grep -q 'truth: crevice reference .*--weighting cosine --falloff none' stderr.tx
 good $mesh --check-eye 3,2,6 --fit radius,intensity
 grep -q '^other' stdout.txt || fail "no view from --check-eye"
 
+# A short budget gives options, too.
+good tune builtin:corner --size 64x36 --time 0.5
+grep -q '^options: --method hbao' stdout.txt || fail "nothing in half a second"
+
 # What cannot be fitted is one line.
 bad 2 'frame.exr: has no pass of ambient occlusion' tune frame.exr
 good ao frame.exr --crop --radius 0.4 -o small.exr -q

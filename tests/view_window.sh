@@ -217,6 +217,11 @@ grep -q '^radius=0.2$' stdout.txt && grep -q '^contrast=1$' stdout.txt &&
     fail "the truth does not stay"
 [ "$(grep -c -- 'crevice reference .*--radius 0.7 ' stdout.txt)" -eq 1 ] ||
     fail "the truth stays for another method"
+act builtin:corner --tune --size 400x300 <<'END'
+wait-tune
+quit
+END
+grep -q '^fitted: RMSE 0\.' stdout.txt || fail "--tune fits nothing"
 echo 'take-over left' >take.txt
 bad 1 'take.txt:1: take-over left: nothing was fitted' view builtin:corner --script take.txt
 

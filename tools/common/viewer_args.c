@@ -14,6 +14,10 @@ static const arg input_rows[] = {
      .value = "A-B[xSTEP]",
      ARG_INTO(ARG_TEXT, viewer_settings, frames),
      .help = "frames of a shot, as for `crevice ao`"},
+    {.name = "--tune",
+     ARG_INTO(ARG_FLAG, viewer_settings, tune),
+     .help = "begin with a fit of the left half's options to the truth, as the button "
+             "\"Fit to truth\" makes it; `crevice tune` is that without a window"},
     {.name = "--script",
      .value = "FILE",
      ARG_INTO(ARG_TEXT, viewer_settings, script),

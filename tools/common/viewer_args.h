@@ -11,6 +11,7 @@
 typedef struct viewer_settings {
     view_settings view; /* its model may be a frame, too */
     const char *frames, *script;
+    bool tune;
     pass_settings passes;       /* of frames */
     frame_camera_settings lens; /* of frames: what `view` has no member for */
 } viewer_settings;

@@ -44,6 +44,7 @@ typedef struct app {
     guint settle;                /* the timer that ends moving; 0: none runs */
     atomic_int notified;         /* a picture waits to be taken */
     tuning tuning;               /* the last fit */
+    bool tunes_first;            /* one is to be made as soon as there is a picture */
     char told[PROBLEM_SIZE];     /* what the status line says besides; "" */
 } app;
 

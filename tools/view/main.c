@@ -45,6 +45,10 @@ static gboolean on_ready(gpointer user)
     if (!a->window)
         return G_SOURCE_REMOVE;
     take_picture(a);
+    if (a->tunes_first && a->shown.buffers && a->shown_number >= a->asked) {
+        a->tunes_first = false;
+        app_tune(a, 0);
+    }
     worker_tuning(a->session.worker, &a->tuning);
     for (int i = 0; i < HALVES; i++)
         panel_show_tuning(a->panel[i]);
@@ -88,6 +92,7 @@ static int run(const viewer_settings *settings, double begun_s, report *r)
 {
     app a = {.settings = settings,
              .begun_s = begun_s,
+             .tunes_first = settings->tune,
              .split = 0.5,
              .overlay = true,
              .pointer_x = -1.0};

@@ -187,6 +187,14 @@ static const char *do_tune(script *s, char **word)
     return NULL;
 }
 
+static const char *do_wait_tune(script *s, char **word)
+{
+    (void)word;
+    s->number[0] = s->app->tuning.half;
+    s->done = is_tuned;
+    return NULL;
+}
+
 static const char *do_take_over(script *s, char **word)
 {
     const int half = script_half(word[0]);
@@ -442,6 +450,7 @@ const script_action script_actions[] = {
     {"preset", 2, do_preset},
     {"reset", 1, do_reset},
     {"tune", 2, do_tune},
+    {"wait-tune", 0, do_wait_tune},
     {"take-over", 1, do_take_over},
     {"half", 1, do_half},
     {"split", 1, do_split},
