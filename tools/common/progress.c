@@ -83,11 +83,6 @@ void progress_rows(void *user, int32_t rows)
     progress_show(user, rows);
 }
 
-void progress_share(void *user, double share)
-{
-    progress_show(user, (int64_t)(share * PROGRESS_SHARES));
-}
-
 void progress_end(progress *p)
 {
     if (p->width > 0 && p->terminal)

@@ -29,9 +29,6 @@ void progress_show(progress *p, int64_t done);
 void progress_end(progress *p);
 /* progress_show() as scene's loops call it; user: the progress. */
 void progress_rows(void *user, int32_t rows);
-/* The same for io's reading, of a progress whose total is PROGRESS_SHARES. */
-void progress_share(void *user, double share);
-enum { PROGRESS_SHARES = 1000 };
 
 /* Runs the library's loops on OpenMP's threads, as the library itself does, and says of
  * those that take more than ten seconds how long they will. threads: 0 for all. Zeroed,

@@ -11,6 +11,7 @@
 #include "common/metrics.h"
 #include "common/metrics_print.h"
 #include "common/progress.h"
+#include "common/reading.h"
 #include "passes/passes.h"
 
 typedef struct compare_settings {
@@ -123,9 +124,9 @@ static int read_channels(const char *path, const io_image *probe, const char *ch
         for (int i = 0; i < 3; i++)
             bent_at[i] = place_of(names, &count, bent[i]);
     /* Passes of parts with other windows tell nothing of the compared pixels. */
-    if (io_read(path, names, count, &out->image, NULL) != 0) {
+    if (reading_picture(path, names, count, &out->image, NULL, r) != 0) {
         depth_at = normal_at[0] = bent_at[0] = -1;
-        if (io_read(path, names, 1, &out->image, &r->logger) != 0)
+        if (reading_picture(path, names, 1, &out->image, &r->logger, r) != 0)
             return EXIT_FAILED;
     }
     out->values = out->image.channels[0].data;

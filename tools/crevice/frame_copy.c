@@ -7,6 +7,7 @@
 
 #include "common/multi_bounce.h"
 #include "common/output.h"
+#include "common/reading.h"
 #include "passes/views.h"
 #include "views.h"
 
@@ -147,7 +148,9 @@ static int fill_albedo(const ao_settings *s, const char *input, const char *view
         return EXIT_FAILED;
     int code = find_albedo(s, input, &probed, view, names, r);
     if (code == EXIT_DONE
-        && io_read(input, names, names[0] == names[1] ? 1 : 3, &pass, &r->logger) != 0)
+        && reading_picture(input, names, names[0] == names[1] ? 1 : 3, &pass, &r->logger,
+                           r)
+               != 0)
         code = EXIT_FAILED;
     for (int k = 0; k < 3 && code == EXIT_DONE; k++)
         io_copy_window(&pass, io_image_find(&pass, names[k])->data, out,

@@ -6,6 +6,7 @@
 #include "render.h"
 #include "common/multi_bounce.h"
 #include "common/nearest.h"
+#include "common/reading.h"
 
 static const double degree = 3.14159265358979323846 / 180.0;
 
@@ -88,7 +89,7 @@ static int load_picture(const char *path, lighting *l, report *r)
     static const char *const names[] = {"R", "G", "B"};
     io_image image = {0};
     int result = EXIT_FAILED;
-    if (io_read(path, names, 3, &image, &r->logger) != 0)
+    if (reading_picture(path, names, 3, &image, &r->logger, r) != 0)
         return EXIT_FAILED;
     const size_t count = (size_t)image.width * (size_t)image.height;
     l->picture = malloc(count * 3 * sizeof *l->picture);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "common/estimate.h"
+#include "common/reading.h"
 #include "render.h"
 
 /* In the order of crv_wrap. */
@@ -74,7 +75,7 @@ int relief_load(const render_settings *s, io_image *map, report *r)
                      "%s: has several channels, none of them Y or R; write the height as "
                      "one channel",
                      s->height_map);
-    else if (io_read(s->height_map, &name, 1, map, &r->logger) == 0)
+    else if (reading_picture(s->height_map, &name, 1, map, &r->logger, r) == 0)
         result = EXIT_DONE;
     io_image_free(&probed);
     if (result == EXIT_DONE)

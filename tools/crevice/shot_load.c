@@ -2,7 +2,7 @@
 /* shot_load.c: frames, read as their shot reads them. */
 #include "shot_state.h"
 
-#include "common/progress.h"
+#include "common/reading.h"
 #include "masks.h"
 
 enum { LOOKED_AT = 5 };
@@ -24,12 +24,7 @@ static int load(const shot *t, const frame_paths *paths, io_frame *frame, report
     const int result = request_frame(t, paths, &request, r);
     if (result != EXIT_DONE)
         return result;
-    progress p = progress_begin(r, paths->input, 0, PROGRESS_SHARES);
-    const io_watch watch = {progress_share, &p};
-    request.watch = &watch;
-    const int loaded = io_frame_load(paths->input, &request, frame, &r->logger);
-    progress_end(&p);
-    if (loaded != 0)
+    if (reading_frame(paths->input, &request, frame, &r->logger, r) != 0)
         return EXIT_FAILED;
     if (t->settings->layer_kind.given)
         frame->desc.layer_kind = (crv_layers)t->settings->layer_kind.value;

@@ -7,6 +7,7 @@
 
 #include "ao_pass.h"
 #include "common/radius.h"
+#include "common/reading.h"
 
 /* A renderer's picture of accessibility holds no more than 1, but for rounding. */
 #define WHITE_MAX 1.01f
@@ -113,7 +114,8 @@ static int read_truth(tune_work *w, int index, const char *frame, const char *tr
     if (truth)
         take_apart(path, &wanted);
     int result = choose(path, wanted, io_is_same_file(path, frame), name, r);
-    if (result == EXIT_DONE && io_read(path, names, 1, &image, &r->logger) != 0)
+    if (result == EXIT_DONE
+        && reading_picture(path, names, 1, &image, &r->logger, r) != 0)
         result = EXIT_FAILED;
     if (result == EXIT_DONE)
         result = take_truth(v, path, &image, window, r);
@@ -145,7 +147,7 @@ static int read_frame(const tune_work *w, const char *path, io_frame *out)
     camera_file_free(&cameras);
     if (result != EXIT_DONE)
         return result;
-    if (io_frame_load(path, &request, out, &w->r->logger) != 0)
+    if (reading_frame(path, &request, out, &w->r->logger, w->r) != 0)
         return EXIT_FAILED;
     if (w->s->in.view.layer_kind.given)
         out->desc.layer_kind = (crv_layers)w->s->in.view.layer_kind.value;
