@@ -45,7 +45,8 @@ static gboolean on_ready(gpointer user)
     if (!a->window)
         return G_SOURCE_REMOVE;
     take_picture(a);
-    if (a->tunes_first && a->shown.buffers && a->shown_number >= a->asked) {
+    /* Once it is painted the window has its size; the truth comes again and again. */
+    if (a->tunes_first && a->shown.buffers && a->painted_number >= a->asked) {
         a->tunes_first = false;
         app_tune(a, 0);
     }
