@@ -104,15 +104,18 @@ static void copy_row(void *data, uint32_t index)
 }
 
 /* The bent normal of a pixel of the buffers, with unit length. The mean of opposite
- * directions has none: the surface's own. */
+ * directions has none: the surface's own. Of a surface without a normal, as nonsense in
+ * the depth makes it, there is no hemisphere either: 0. */
 static crv__vec3 bent_at(const copy_job *job, int32_t x, int32_t y)
 {
-    if (!(*crv__plane_at(&job->frame->depth[0], x, y) < INFINITY))
+    const crv__vec3 n = crv__normal_at(job->frame, x, y);
+    if (!(*crv__plane_at(&job->frame->depth[0], x, y) < INFINITY)
+        || !(crv__dot(n, n) > 0))
         return (crv__vec3){0, 0, 0};
     const crv__vec3 b = crv__vec3_at(job->from.bent, x, y);
     const float squared = crv__dot(b, b);
     if (!(squared > 1e-12f && squared < INFINITY))
-        return crv__normal_at(job->frame, x, y);
+        return n;
     const float scale = 1 / sqrtf(squared);
     return (crv__vec3){b.x * scale, b.y * scale, b.z * scale};
 }
