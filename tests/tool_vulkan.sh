@@ -62,6 +62,19 @@ for method in $methods; do
     agrees courtyard 1 "$method" none
 done
 
+# Bent normals. Nineteen of twenty are within a tenth of a degree: the others may have read a
+# neighbouring texel.
+for method in gtao bitmask hsao raymarch; do
+    for device in "cpu --isa scalar" vulkan; do
+        # shellcheck disable=SC2086 # words
+        good ao courtyard.exr -o "bent_${device%% *}.exr" --radius 1 --method "$method" \
+            --bent-normal on --device $device
+    done
+    good compare --json bent_cpu.exr bent_vulkan.exr
+    at_least "$(number bent_pixels)" 30000 "$method: pixels with bent normals"
+    at_most "$(number bent_q95_deg)" 0.1 "$method: angle between bent normals"
+done
+
 # Long work says how long beforehand, and ends at a signal. A GPU may be done with it within
 # ten seconds.
 if "$tool" devices | grep '^vulkan:0' | grep -q '; a CPU)$'; then
