@@ -5,7 +5,8 @@
 
 #include "reference_internal.h"
 
-enum { SIDE = 4, PIXELS = SIDE * SIDE, HEAD = 48, WHOLE = HEAD + 2 * 4 * PIXELS + 8 };
+enum { SIDE = 4, PIXELS = SIDE * SIDE, HEAD = 48 };
+enum { WHOLE = HEAD + REFERENCE_FLOATS * 4 * PIXELS + 8 };
 enum { MEND_FINGERPRINT = 1, MEND_CHECKSUM = 2 };
 
 static scene *model;

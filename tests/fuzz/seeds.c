@@ -13,6 +13,7 @@
 
 #include "commands.h"
 #include "import_assimp.h"
+#include "reference_internal.h"
 
 static char folder[1024];
 
@@ -58,7 +59,7 @@ import found = {0 };
 static void write_checkpoint(void)
 {
     /* Format and fingerprint are mended by the target; then 16 pixels, 5 of them done. */
-    uint8_t data[1 + 184] = {3};
+    uint8_t data[1 + 48 + REFERENCE_FLOATS * 4 * 16 + 8] = {3};
     data[1 + 32] = 16;
     data[1 + 40] = 5;
     seeds_write("checkpoint", "mended", data, sizeof data);
