@@ -6,6 +6,10 @@
 
 #include "exact.h"
 
+const char *const target_weightings[] = {"uniform", "cosine", NULL};
+const char *const target_falloffs[] = {"none",        "linear",  "sqrt", "cubic",
+                                       "exponential", "alchemy", NULL};
+
 /* Falloffs of the methods that have one of their own. */
 static const struct own_falloff {
     const char *method;
@@ -66,7 +70,6 @@ bool target_equal(const reference_options *a, const reference_options *b)
 
 const char *target_flags(const reference_options *o, char *out, size_t size)
 {
-    const crv_option *falloff = crv_option_find("falloff");
     char number[32];
     int used = snprintf(out, size, " --radius %s", exact_number(o->radius, 1.0, number));
     if (o->definition == REFERENCE_TANGENT_SPHERE) {
@@ -74,8 +77,7 @@ const char *target_flags(const reference_options *o, char *out, size_t size)
         return out;
     }
     used += snprintf(out + used, size - (size_t)used, " --weighting %s --falloff %s",
-                     o->weighting == CRV_WEIGHTING_COSINE ? "cosine" : "uniform",
-                     falloff->choices[o->falloff]);
+                     target_weightings[o->weighting], target_falloffs[o->falloff]);
     if (o->falloff == CRV_FALLOFF_EXPONENTIAL)
         snprintf(out + used, size - (size_t)used, " --tau %s",
                  exact_number(o->tau, 1.0, number));

@@ -5,6 +5,9 @@
 
 #include "reference.h"
 
+/* Their words, in the order of crv_weighting and crv_falloff; NULL ends them. */
+extern const char *const target_weightings[], *const target_falloffs[];
+
 /* Rays, error and seed are left 0. */
 reference_options target_of(const crv_options *options);
 

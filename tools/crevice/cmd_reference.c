@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "gbuffer_image.h"
 #include "common/output.h"
+#include "common/target.h"
 #include "reference_run.h"
 #include "common/view.h"
 
@@ -16,10 +17,7 @@ typedef struct reference_settings {
     bool resume;
 } reference_settings;
 
-/* In the order of crv_weighting, crv_falloff and reference.h. */
-static const char *const weightings[] = {"uniform", "cosine", NULL};
-static const char *const falloffs[] = {"none",        "linear",  "sqrt", "cubic",
-                                       "exponential", "alchemy", NULL};
+/* In the order of reference.h. */
 static const char *const definitions[] = {"hemisphere", "tangent-sphere", NULL};
 static const char *const kinds[] = {"full", "visible", NULL};
 
@@ -43,13 +41,13 @@ static const arg integral_rows[] = {
      .help = "distance beyond which nothing occludes"},
     {.name = "--weighting",
      .value = "KIND",
-     .choices = weightings,
+     .choices = target_weightings,
      .initial = "cosine",
      ARG_INTO(ARG_CHOICE, reference_settings, weighting),
      .help = "how directions count; `crevice methods` says what each method estimates"},
     {.name = "--falloff",
      .value = "KIND",
-     .choices = falloffs,
+     .choices = target_falloffs,
      .initial = "none",
      ARG_INTO(ARG_CHOICE, reference_settings, falloff),
      .help = "how occluders fade with distance"},

@@ -9,16 +9,12 @@
 #include "common/option_text.h"
 #include "common/output.h"
 #include "common/progress.h"
+#include "common/target.h"
 #include "system/interrupt.h"
 #include "tune_work.h"
 
 /* A run of the method, and the runs after it, take no longer after an interrupt. */
 enum { GRACE_S = 10 };
-
-/* In the order of crv_weighting and crv_falloff. */
-static const char *const weightings[] = {"uniform", "cosine", NULL};
-static const char *const falloffs[] = {"none",        "linear",  "sqrt", "cubic",
-                                       "exponential", "alchemy", NULL};
 
 static const arg file_rows[] = {
     {.name = "INPUT",
@@ -72,13 +68,13 @@ static const arg truth_rows[] = {
      .help = "of a mesh, whose truth is ray-traced: its radius"},
     {.name = "--truth-weighting",
      .value = "KIND",
-     .choices = weightings,
+     .choices = target_weightings,
      ARG_INTO(ARG_CHOICE, tune_settings, truth_weighting),
      .computed = "what the method estimates",
      .help = "its weighting"},
     {.name = "--truth-falloff",
      .value = "KIND",
-     .choices = falloffs,
+     .choices = target_falloffs,
      ARG_INTO(ARG_CHOICE, tune_settings, truth_falloff),
      .computed = "what the method estimates",
      .help = "its falloff"},
