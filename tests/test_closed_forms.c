@@ -264,19 +264,18 @@ static void error_falls_with_samples(void **state)
         fixture_free(&grooves[k].buffers);
 }
 
-static double lowest_on_plane(const char *method, double tilt_deg, int orthographic,
-                              const crv_filter *filter, int without_normals)
+/* Of a plane's accessibility. */
+static double lowest_with(crv_options options, double tilt_deg, int orthographic,
+                          int without_normals)
 {
     const int32_t width = 96, height = 64;
-    /* Tilted by 85 degrees the orthographic view spans 120 units of depth; all are in
+    /* Tilted by 88 degrees the orthographic view spans 400 units of depth; all are in
      * front. */
-    const double depth = orthographic ? 100 : 10;
+    const double depth = orthographic ? 300 : 10;
     crv_camera camera = orthographic ? crv_camera_orthographic(width, height, 8)
                                      : crv_camera_perspective(width, height, 0.9f);
     const double parameters[3] = {tilt_deg * PI / 180, depth, 0.7};
     fixture f = fixture_make(fixture_plane, parameters, &camera, width, height);
-    crv_options options = fixture_options(method);
-    options.filter = filter;
     options.radius = 2;
     options.bias_deg = 0; /* the bias would hide self-occlusion */
     const fixture_run run = {.without_normals = without_normals};
@@ -287,6 +286,14 @@ static double lowest_on_plane(const char *method, double tilt_deg, int orthograp
     free(result);
     fixture_free(&f);
     return lowest;
+}
+
+static double lowest_on_plane(const char *method, double tilt_deg, int orthographic,
+                              const crv_filter *filter, int without_normals)
+{
+    crv_options options = fixture_options(method);
+    options.filter = filter;
+    return lowest_with(options, tilt_deg, orthographic, without_normals);
 }
 
 static void a_plane_does_not_occlude_itself(void **state)
@@ -312,12 +319,35 @@ static void a_plane_does_not_occlude_itself(void **state)
     }
 }
 
+/* Slices end at the tangent of the same plane: what is left is the rounding of depth. */
+static void slices_leave_steep_planes_open(void **state)
+{
+    (void)state;
+    static const char *const METHODS[] = {"gtao", "bitmask"};
+    static const crv_weighting WEIGHTINGS[] = {CRV_WEIGHTING_UNIFORM,
+                                               CRV_WEIGHTING_COSINE};
+    static const double TILTS[] = {0, 45, 75, 85, 88};
+    for (int k = 0; k < 2 * 2 * 2 * 5; k++) {
+        const char *method = METHODS[k & 1];
+        const crv_weighting weighting = WEIGHTINGS[k >> 1 & 1];
+        const double tilt = TILTS[k >> 3];
+        const int orthographic = k >> 2 & 1;
+        crv_options options = fixture_options(method);
+        options.filter = NULL;
+        options.weighting = weighting;
+        const double a = lowest_with(options, tilt, orthographic, 0);
+        if (!(a > 1 - 5e-4))
+            fail_msg("%s, weighting %d, tilt %g: %g", method, (int)weighting, tilt, a);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(converged_methods_meet_the_groove),
         cmocka_unit_test(error_falls_with_samples),
         cmocka_unit_test(a_plane_does_not_occlude_itself),
+        cmocka_unit_test(slices_leave_steep_planes_open),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -218,8 +218,9 @@ static inline float crv__slice_outward(const crv__frame *f, int32_t x, int32_t y
     return is_planar ? 0.25f * (own - inner) : 0;
 }
 
-/* The first layer's depth beyond the borders: planes go on, up to a third and three times
- * the border's own. */
+/* The first layer's depth beyond the borders: planes go on, up to a third of the border's
+ * own. Beyond three times that there is nothing: less than the plane's depth would be in
+ * front of it. */
 static inline float crv__slice_beyond(const crv__frame *f, int32_t u, int32_t v)
 {
     const crv__params *p = f->params;
@@ -235,8 +236,9 @@ static inline float crv__slice_beyond(const crv__frame *f, int32_t u, int32_t v)
         w += crv__slice_outward(f, x, y, u < 0 ? 1 : -1, 0, own) * fabsf((float)(u - x));
     if (v != y)
         w += crv__slice_outward(f, x, y, 0, v < 0 ? 1 : -1, own) * fabsf((float)(v - y));
-    w = fminf(3 * own, fmaxf(own / 3, w));
-    return p->orthographic ? w : 1 / w;
+    if (p->orthographic)
+        return w > 3 * own ? INFINITY : fmaxf(own / 3, w);
+    return w < own / 3 ? INFINITY : 1 / fminf(3 * own, w);
 }
 
 static inline bool crv__slice_is_inside(const crv__params *p,

@@ -209,8 +209,10 @@ CRV__NOINLINE vf crv__lanes_beyond(const crv__frame *f, vi u, vi v, vm mask)
         w = w
             + crv__lanes_outward(f, shape, x, y, zero,
                                  vi_select(over_top, one, minus_one), over_y, own, v - y);
-    w = vf_min(vf_max(w, own / vf_set(3)), vf_set(3) * own);
-    return vf_select(surface, shape.orthographic ? w : vf_set(1) / w, vf_set(INFINITY));
+    const vf third = own / vf_set(3), thrice = vf_set(3) * own;
+    const vm near = shape.orthographic ? vf_le(w, thrice) : vf_le(third, w);
+    w = shape.orthographic ? vf_max(w, third) : vf_set(1) / vf_min(w, thrice);
+    return vf_select(vm_and(surface, near), w, vf_set(INFINITY));
 }
 
 /* crv__slice_depth() */

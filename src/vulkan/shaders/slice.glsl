@@ -172,8 +172,9 @@ float slice_outward(ivec2 texel, ivec2 inwards, float own)
     return is_planar ? 0.25 * (own - inner) : 0;
 }
 
-/* The first layer's depth beyond the borders: planes go on, up to a third and three times
- * the border's own. A loop, since few samples lie beyond two borders. */
+/* The first layer's depth beyond the borders: planes go on, up to a third of the border's
+ * own; beyond three times that there is nothing. A loop, since few samples lie beyond two
+ * borders. */
 float slice_beyond(ivec2 texel, ivec2 by)
 {
     const float own = slice_linear(texel);
@@ -184,8 +185,9 @@ float slice_beyond(ivec2 texel, ivec2 by)
             break;
         w += slice_outward(texel, -sign(along), own) * float(abs(along.x + along.y));
     }
-    w = clamp(w, own / 3, 3 * own);
-    return is_orthographic() ? w : 1 / w;
+    if (is_orthographic())
+        return w > 3 * own ? INFINITY : max(own / 3, w);
+    return w < own / 3 ? INFINITY : 1 / min(3 * own, w);
 }
 
 /* The depth of a layer at a texel; INFINITY: background. */
