@@ -291,11 +291,8 @@ static int has_structure(const simd_case *c)
 static float exact_at(const reference *s, int32_t x, int32_t y, crv__vec3 *bent)
 {
     const crv__method *method = crv__method_of(s->c->options.method);
-    if (!bent)
-        return method->accessibility(&s->frame, x, y);
-    const crv__estimate e = method->estimate(&s->frame, x, y);
-    *bent = e.bent;
-    return e.accessibility;
+    return bent ? method->estimate(&s->frame, x, y, bent)
+                : method->accessibility(&s->frame, x, y);
 }
 
 static float value_at(reference *s, int32_t x, int32_t y, int structure, int *has_bucket,

@@ -20,8 +20,9 @@ typedef struct crv__method {
     /* The specification: raw accessibility of the pixel (x, y) of the buffers, which is
      * not background; may leave [0, 1] by its sampling error. */
     float (*accessibility)(const crv__frame *frame, int32_t x, int32_t y);
-    /* The same accessibility, and the bent normal; NULL: the method gives none. */
-    crv__estimate (*estimate)(const crv__frame *frame, int32_t x, int32_t y);
+    /* The same accessibility, and the bent normal if `bent` is not NULL. NULL: the method
+     * gives none. */
+    float (*estimate)(const crv__frame *frame, int32_t x, int32_t y, crv__vec3 *bent);
     int32_t volumetric; /* 0 or 1: needs to know what is inside, so that further layers
                            help only as pairs of front and back */
     /* The method's sample pattern: fills options->samples points of four floats. Methods

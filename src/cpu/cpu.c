@@ -76,7 +76,7 @@ static void specify_row(const tiles *t, int32_t x0, int32_t x1, int32_t y,
     for (int32_t x = x0; x < x1; x++) {
         crv__estimate e = {.accessibility = 1};
         if (!is_background(t, x, y) && to->bent[0])
-            e = t->method->estimate(frame, x, y);
+            e.accessibility = t->method->estimate(frame, x, y, &e.bent);
         else if (!is_background(t, x, y))
             e.accessibility = t->method->accessibility(frame, x, y);
         to->accessibility[x - x0] =

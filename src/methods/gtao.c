@@ -93,16 +93,14 @@ static float blocked_share(const crv__frame *f, const crv__slice_site *site,
     return p->attenuation == CRV_ATTENUATION_SLAB ? h.occlusion : (1 - h.open) * h.weight;
 }
 
-static float accessibility(const crv__frame *f, int32_t x, int32_t y)
+static float estimate(const crv__frame *f, int32_t x, int32_t y, crv__vec3 *bent)
 {
-    return crv__slices_open(f, x, y, blocked_share, NULL);
+    return crv__slices_open(f, x, y, blocked_share, bent);
 }
 
-static crv__estimate estimate(const crv__frame *f, int32_t x, int32_t y)
+static float accessibility(const crv__frame *f, int32_t x, int32_t y)
 {
-    crv__estimate e;
-    e.accessibility = crv__slices_open(f, x, y, blocked_share, &e.bent);
-    return e;
+    return estimate(f, x, y, NULL);
 }
 
 static const char *const OPTIONS[] = {"falloff",     "tau",         "u",

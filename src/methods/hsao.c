@@ -126,8 +126,7 @@ static void add_horizon(crv__bent_sums *sums, const crv__params *p, crv__vec3 n,
     sums->open = crv__add_scaled(sums->open, crv__sub(all, blocked), 1);
 }
 
-/* bent NULL: not wanted. */
-static float trace(const crv__frame *f, int32_t x, int32_t y, crv__vec3 *bent)
+static float estimate(const crv__frame *f, int32_t x, int32_t y, crv__vec3 *bent)
 {
     const crv__params *p = f->params;
     const crv__noise_texel *noise = crv__noise_at(f, x, y);
@@ -156,14 +155,7 @@ static float trace(const crv__frame *f, int32_t x, int32_t y, crv__vec3 *bent)
 
 static float accessibility(const crv__frame *f, int32_t x, int32_t y)
 {
-    return trace(f, x, y, NULL);
-}
-
-static crv__estimate estimate(const crv__frame *f, int32_t x, int32_t y)
-{
-    crv__estimate e;
-    e.accessibility = trace(f, x, y, &e.bent);
-    return e;
+    return estimate(f, x, y, NULL);
 }
 
 static const char *const OPTIONS[] = {
