@@ -16,6 +16,10 @@
 /* A run of the method, and the runs after it, take no longer after an interrupt. */
 enum { GRACE_S = 10 };
 
+/* The correlation of truth and result from which on one of them looks inverted: less may
+ * be chance where hardly anything is occluded. */
+#define OPPOSITE (-0.25)
+
 static const arg file_rows[] = {
     {.name = "INPUT",
      .required = true,
@@ -299,7 +303,7 @@ static int tune(tune_work *w, unsigned fits, voice *log)
     if (!report_ok(w->r, tune_view_measure(&w->view[TUNE_FITTED], &w->start, &first),
                    "estimation"))
         return EXIT_FAILED;
-    if (first.correlation < 0.0)
+    if (first.correlation < OPPOSITE)
         report_warning(w->r, "the truth is dark where the method is bright; is it "
                              "occlusion (1 - accessibility), or of another view?");
     log->muted = true;
