@@ -61,6 +61,11 @@ static void test_other_motions(void **state)
     motion_fly(&v, 0.25, 0.5, 1.0);
     assert_near3(v.eye, 1, 2, 0);
     assert_near3(v.target, 1, 2, -4);
+    /* A point 1 to the right, 2 up and 3 before the eye, from half the distance. */
+    v = from_z();
+    motion_focus(&v, (const double[]){1, 2, -3}, 0.5);
+    assert_near3(v.target, 1, 2, 1);
+    assert_near3(v.eye, 0.5, 1, 2.5);
     v = from_z();
     motion_look(&v, 0.5 * pi, 0.0);
     assert_near3(v.eye, 0, 0, 4);

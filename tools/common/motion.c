@@ -114,6 +114,17 @@ void motion_dolly(scene_view *v, double factor)
     v->view_height *= (float)factor;
 }
 
+void motion_focus(scene_view *v, const double p[3], double factor)
+{
+    const axes a = axes_of(v);
+    const vector eye = from_array(v->eye);
+    const vector at =
+        along(along(along(eye, a.right, p[0]), a.up, p[1]), a.forward, -p[2]);
+    to_array(at, v->target);
+    to_array(along(scaled(at, 1.0 - factor), eye, factor), v->eye);
+    v->view_height *= (float)factor;
+}
+
 void motion_fly(scene_view *v, double right, double up, double forward)
 {
     const axes a = axes_of(v);

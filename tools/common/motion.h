@@ -17,6 +17,9 @@ void motion_pan(scene_view *v, double right, double down);
  * Orthographic: so does what is seen. */
 void motion_dolly(scene_view *v, double factor);
 
+/* Makes a point the target, and moves the eye to it as above. p: view space. */
+void motion_focus(scene_view *v, const double p[3], double factor);
+
 /* Moves eye and target along the view's axes: shares of the distance between them. */
 void motion_fly(scene_view *v, double right, double up, double forward);
 

@@ -52,3 +52,17 @@ void buffers_release(buffers *b)
     free(b->beauty);
     free(b);
 }
+
+bool buffers_point(const buffers *b, int32_t x, int32_t y, double out[3])
+{
+    const crv_camera *c = &b->g.camera;
+    const size_t i = (size_t)y * (size_t)b->g.desc.width + (size_t)x;
+    const double d = (double)b->g.depth[0][i];
+    if (!(d > 0.0 && isfinite(d)))
+        return false;
+    const double spread = c->projection == CRV_PERSPECTIVE ? d : 1.0;
+    out[0] = (x + 0.5 - (double)c->cx_px) / (double)c->fx_px * spread;
+    out[1] = -(y + 0.5 - (double)c->cy_px) / (double)c->fy_px * spread;
+    out[2] = -d;
+    return true;
+}

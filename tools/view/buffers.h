@@ -21,6 +21,10 @@ buffers *buffers_make(scene_gbuffer *g);
 buffers *buffers_hold(buffers *b);
 void buffers_release(buffers *b);
 
+/* The point of a texel of the whole buffer, guard band included, view space (camera.h);
+ * false: background. */
+bool buffers_point(const buffers *b, int32_t x, int32_t y, double out[3]);
+
 /* The index in the G-buffer's planes of a pixel inside the guard band. */
 size_t buffers_index(const buffers *b, int32_t x, int32_t y);
 

@@ -9,6 +9,8 @@
 /* How near to the line a drag takes it, px; how much a key does. */
 static const double grip_px = 8.0, key_turn = 0.06, key_share = 0.04, key_zoom = 1.15;
 static const double split_step = 0.02, turn_per_height = 3.2;
+/* A double click leaves so much of the distance. */
+static const double focus_factor = 0.6;
 
 typedef struct drag {
     app *app;
@@ -76,6 +78,36 @@ void canvas_enter(app *a)
         return;
     session_enter(&a->session);
     app_move(a);
+}
+
+/* What is under a point of the widget comes to the middle, from nearer. */
+static bool focus_on(app *a, double x, double y)
+{
+    const buffers *b = a->shown.buffers;
+    int32_t column, row;
+    double p[3];
+    if (!is_mesh(a) || !canvas_pixel(a, x, y, &column, &row)
+        || !buffers_point(b, column + b->g.desc.guard_left, row + b->g.desc.guard_top, p))
+        return false;
+    a->session.wish.view = a->shown.wish.view;
+    motion_focus(&a->session.wish.view, p, focus_factor);
+    app_move(a);
+    return true;
+}
+
+static void on_press(GtkGestureClick *click, int count, double x, double y, gpointer user)
+{
+    (void)click;
+    if (count == 2)
+        focus_on(user, x, y);
+}
+
+/* The pointer's place, or the middle. */
+static bool focus_key(app *a)
+{
+    const bool inside = a->pointer_x >= 0.0;
+    return focus_on(a, inside ? a->pointer_x : 0.5 * gtk_widget_get_width(a->canvas),
+                    inside ? a->pointer_y : 0.5 * gtk_widget_get_height(a->canvas));
 }
 
 static void set_split(app *a, double split)
@@ -165,6 +197,7 @@ static void on_leave(GtkEventControllerMotion *motion, gpointer user)
 void canvas_take_input(app *a)
 {
     GtkGesture *gesture = gtk_gesture_drag_new();
+    GtkGesture *click = gtk_gesture_click_new();
     GtkEventController *scroll =
         gtk_event_controller_scroll_new(GTK_EVENT_CONTROLLER_SCROLL_VERTICAL);
     GtkEventController *motion = gtk_event_controller_motion_new();
@@ -174,10 +207,12 @@ void canvas_take_input(app *a)
     g_object_set_data_full(G_OBJECT(a->canvas), "drag", d, g_free);
     g_signal_connect(gesture, "drag-begin", G_CALLBACK(on_drag_begin), d);
     g_signal_connect(gesture, "drag-update", G_CALLBACK(on_drag), d);
+    g_signal_connect(click, "pressed", G_CALLBACK(on_press), a);
     g_signal_connect(scroll, "scroll", G_CALLBACK(on_scroll), a);
     g_signal_connect(motion, "motion", G_CALLBACK(on_motion), a);
     g_signal_connect(motion, "leave", G_CALLBACK(on_leave), a);
     gtk_widget_add_controller(a->canvas, GTK_EVENT_CONTROLLER(gesture));
+    gtk_widget_add_controller(a->canvas, GTK_EVENT_CONTROLLER(click));
     gtk_widget_add_controller(a->canvas, scroll);
     gtk_widget_add_controller(a->canvas, motion);
 }
@@ -269,6 +304,9 @@ bool canvas_key(app *a, guint key, bool shift)
         app_explain(a);
         redraw(a);
         return true;
+    case GDK_KEY_Return:
+    case GDK_KEY_KP_Enter:
+        return focus_key(a);
     case GDK_KEY_c:
         canvas_enter(a);
         return is_mesh(a);

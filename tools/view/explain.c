@@ -8,20 +8,6 @@
 
 static const double full_turn = 2.0 * 3.14159265358979323846;
 
-/* The point of a texel of the whole buffer, view space (camera.h); false: background. */
-static bool point_of(const scene_gbuffer *g, int32_t x, int32_t y, double out[3])
-{
-    const crv_camera *c = &g->camera;
-    const double d = (double)g->depth[0][(size_t)y * (size_t)g->desc.width + (size_t)x];
-    if (!(d > 0.0 && isfinite(d)))
-        return false;
-    const double spread = c->projection == CRV_PERSPECTIVE ? d : 1.0;
-    out[0] = (x + 0.5 - (double)c->cx_px) / (double)c->fx_px * spread;
-    out[1] = -(y + 0.5 - (double)c->cy_px) / (double)c->fy_px * spread;
-    out[2] = -d;
-    return true;
-}
-
 /* What a texel tells of the slice: taken over if it rises more. */
 static void look_at(const double p[3], const float n[3], const double s[3], double radius,
                     int32_t x, int32_t y, explain_horizon *h)
@@ -45,7 +31,7 @@ static explain_horizon march(const buffers *b, int32_t x, int32_t y, double radi
     const float *n = b->g.normals + 3 * buffers_index(b, x, y);
     explain_horizon h = {.sine = LEAST_SINE};
     double p[3], s[3];
-    if (!point_of(&b->g, x + d->guard_left, y + d->guard_top, p))
+    if (!buffers_point(b, x + d->guard_left, y + d->guard_top, p))
         return h;
     for (double t = 1.0; t <= radius_px + 1.0; t += 1.0) {
         const int32_t column = (int32_t)lround(x + t * cos(angle));
@@ -53,7 +39,7 @@ static explain_horizon march(const buffers *b, int32_t x, int32_t y, double radi
         const int32_t i = column + d->guard_left, j = row + d->guard_top;
         if (i < 0 || j < 0 || i >= d->width || j >= d->height)
             break;
-        if (point_of(&b->g, i, j, s))
+        if (buffers_point(b, i, j, s))
             look_at(p, n, s, radius, column, row, &h);
     }
     return h;

@@ -4,8 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Between two looks at what is waited for, and until it is given up. */
-enum { LOOK_MS = 4, GIVE_UP_S = 300 };
+/* Between two looks at what is waited for, and until it is given up: under valgrind all
+ * takes minutes. */
+enum { LOOK_MS = 4, GIVE_UP_S = 900 };
 
 int script_load(const char *path, script **out, report *r)
 {
