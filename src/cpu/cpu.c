@@ -330,27 +330,54 @@ static void filter_pass(const crv__work *work, int32_t pass, const crv__picture 
     run_tiles(&t);
 }
 
-/* Kernels keep what they filter in [0, 1], which is no range for components of vectors.
- * They get (b + 1)/2 of these: of a mean the map is the mean. */
-static void fold_row(void *data, uint32_t index)
+/* What is filtered of bent normals is how they deviate from the surface's normals: the
+ * mean of the directions themselves would flatten curved surfaces. Kernels keep what they
+ * filter in [0, 1]; they get a quarter of the deviation and 1/2. */
+typedef struct deviation_job {
+    const crv__frame *frame;
+    const crv__plane *bent;
+    float scale, offset;
+} deviation_job;
+
+/* A row of the bent normals, and the normals there. Returns how many. */
+static int32_t rows_of(const deviation_job *job, uint32_t index, float *bent[3],
+                       const float *normal[3])
 {
-    const crv__plane *bent = data;
+    const crv__plane *first = job->bent;
+    const int32_t y = first->y0 + (int32_t)index;
     for (int k = 0; k < 3; k++) {
-        float *row = crv__plane_at(&bent[k], bent[k].x0, bent[k].y0 + (int32_t)index);
-        for (int32_t x = 0; x < bent[k].width; x++)
-            row[x] = 0.5f * row[x] + 0.5f;
+        bent[k] = crv__plane_at(&job->bent[k], first->x0, y);
+        normal[k] = crv__plane_at(&job->frame->normal[k], first->x0, y);
+    }
+    return first->width;
+}
+
+/* Zero stands for the normal. */
+static void deviate_row(void *data, uint32_t index)
+{
+    const deviation_job *job = data;
+    float *bent[3];
+    const float *normal[3];
+    const int32_t width = rows_of(job, index, bent, normal);
+    for (int32_t x = 0; x < width; x++) {
+        const float any = fabsf(bent[0][x]) + fabsf(bent[1][x]) + fabsf(bent[2][x]);
+        for (int k = 0; k < 3; k++) {
+            const float deviation = any > 0 ? bent[k][x] - normal[k][x] : 0;
+            bent[k][x] = job->scale * deviation + job->offset;
+        }
     }
 }
 
-static void unfold_tile(const crv__plane bent[3], crv__tile tile)
+static void restore_row(void *data, uint32_t index)
 {
-    for (int k = 0; k < 3; k++) {
-        for (int32_t y = tile.y0; y < tile.y1; y++) {
-            float *row = crv__plane_at(&bent[k], tile.x0, y);
-            for (int32_t x = 0; x < tile.x1 - tile.x0; x++)
-                row[x] = 2 * row[x] - 1;
-        }
-    }
+    const deviation_job *job = data;
+    float *bent[3];
+    const float *normal[3];
+    const float scale = 1 / job->scale;
+    const int32_t width = rows_of(job, index, bent, normal);
+    for (int k = 0; k < 3; k++)
+        for (int32_t x = 0; x < width; x++)
+            bent[k][x] = (bent[k][x] - job->offset) * scale + normal[k][x];
 }
 
 static void run_filter_tile(void *data, uint32_t index)
@@ -369,7 +396,6 @@ static void run_filter_tile(void *data, uint32_t index)
         return;
     for (int k = 0; k < 3; k++)
         t->filter_kernel(t->work->frame, &t->input->bent[k], &t->out->bent[k], tile);
-    unfold_tile(t->out->bent, tile);
 }
 
 /* What the host gives to be filtered alone has nothing beyond the guard band: kernels are
@@ -395,9 +421,9 @@ static void filter_with(const crv__work *work, crv__filter_kernel kernel,
     crv__picture shown[2] = {pictures[0], pictures[1]};
     for (int i = 0; i < 2; i++)
         shown[i].accessibility = shown_part(work, &pictures[i].accessibility);
+    deviation_job job = {work->frame, shown[0].bent, 0.25f, 0.5f};
     if (work->with_bent)
-        crv__run_rows(work->setup->context, shown[0].bent[0].height, fold_row,
-                      shown[0].bent);
+        crv__run_rows(work->setup->context, shown[0].bent[0].height, deviate_row, &job);
     const int32_t width = shown[1].accessibility.width,
                   height = shown[1].accessibility.height;
     tiles t = {
@@ -406,6 +432,9 @@ static void filter_with(const crv__work *work, crv__filter_kernel kernel,
     const int32_t rows = (height + CRV__FILTER_TILE_HEIGHT - 1) / CRV__FILTER_TILE_HEIGHT;
     crv__run_parallel(work->setup->context, (uint32_t)t.columns * (uint32_t)rows,
                       run_filter_tile, &t);
+    job.bent = shown[1].bent;
+    if (work->with_bent)
+        crv__run_rows(work->setup->context, shown[1].bent[0].height, restore_row, &job);
 }
 
 /* ---- plans ---- */
@@ -499,9 +528,15 @@ static crv_status run(const crv__work *given, const crv__picture given_pictures[
         *result = pictures[1];
         return CRV_OK;
     }
+    deviation_job job = {&frame, pictures[0].bent, 1, 0};
+    if (passes && work.with_bent)
+        crv__run_rows(work.setup->context, job.bent[0].height, deviate_row, &job);
     for (int32_t pass = 0; pass < passes; pass++)
         filter_pass(&work, pass, &pictures[pass % 2], &pictures[(pass + 1) % 2]);
     *result = pictures[passes % 2];
+    job.bent = result->bent;
+    if (passes && work.with_bent)
+        crv__run_rows(work.setup->context, job.bent[0].height, restore_row, &job);
     return CRV_OK;
 }
 

@@ -35,7 +35,7 @@ void main()
     if (BENT_NORMAL == 0)
         return;
     if (is_surface(surface.w))
-        write_bent_mean(at, filtered_bent, surface.xyz);
+        write_bent_mean(at, surface.xyz + filtered_bent, surface.xyz);
     else
         write_bent_normal(at, vec3(0));
 }

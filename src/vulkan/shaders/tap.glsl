@@ -13,10 +13,12 @@
 
 shared vec4 tile_surface[TILE_TEXELS]; /* normal, depth */
 shared float tile_value[TILE_TEXELS];  /* accessibility; NaN: no tap */
-/* Bent normals; a single one if there are none. */
+/* How bent normals deviate from normals, which is what is filtered of them: the mean of
+ * the directions themselves would flatten curved surfaces. A single one if there are
+ * none. */
 shared vec3 tile_bent[(int(TILE_TEXELS) - 1) * BENT_NORMAL + 1];
 
-/* The mean of the window's bent normals, if BENT_NORMAL is 1: filtered() sets it. */
+/* Their mean over the window, if BENT_NORMAL is 1: filtered() sets it. */
 vec3 filtered_bent = vec3(0);
 
 /* Takes the texel `at` into the tile; what lies outside the buffers as background. All is
@@ -33,11 +35,13 @@ void take_texel(int index, ivec2 at)
     tile_surface[index] = vec4(normal, is_there ? depth : INFINITY);
     tile_value[index] =
         all(bvec2(is_there, in_input(at))) ? value : uintBitsToFloat(0x7fc00000u);
-    if (BENT_NORMAL != 0)
-        tile_bent[index] = texelFetch(vector_image, input_texel(at), 0).xyz;
+    if (BENT_NORMAL != 0) {
+        const vec3 bent = texelFetch(vector_image, input_texel(at), 0).xyz;
+        tile_bent[index] = dot(bent, bent) > 0 ? bent - normal : vec3(0);
+    }
 }
 
-/* Adds the bent normal of a tap to the sum of them. */
+/* Adds the deviation of a tap to the sum of them. */
 void add_bent(inout vec3 sum, int index, float weight)
 {
     if (BENT_NORMAL != 0)
