@@ -173,9 +173,9 @@ typedef struct crv_result {
 CRV_API crv_status crv_result_init(crv_result *result, size_t struct_size);
 
 /*
- * crv_plan_run() for any of the images, at least one. Filters weight bent normals as they
- * do accessibility: the weighted sum, then normalised. Accessibility has the same bits
- * with and without them. Intensity and contrast do not change them.
+ * crv_plan_run() for any of the images, at least one. Filters smooth how bent normals
+ * deviate from normals, with the weights of accessibility, which has the same bits with
+ * and without bent normals. Intensity and contrast do not change these.
  *
  * Errors: as crv_plan_run(); INVALID_ARGUMENT if bent normals are wanted of a plan whose
  * method gives none, or whose option bent_normal is 0.
