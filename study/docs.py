@@ -106,7 +106,7 @@ def filters_parts(report: dict[str, Any]) -> dict[str, dict[str, str]]:
     return {"methods.md": {"filters-made-by": made_by(report),
                            "filters-compared": markdown(filters.HEADS,
                                                         report["filters"]["compared"]),
-                           "filters-flicker": markdown(["variant", "flicker"],
+                           "filters-flicker": markdown(filters.VARIANT_HEADS,
                                                        report["filters"]["variants"])}}
 
 

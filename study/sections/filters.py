@@ -27,7 +27,16 @@ VARIANTS: list[tuple[str, str, dict[str, Any]]] = [
     ("the same, `--thickness-rule run`", "bitmask",
      {"directions": 4, "steps": 8, "thickness_rule": "run"}),
     ("the same, `--thickness-rule constant --thickness 0.3`", "bitmask",
-     {"directions": 4, "steps": 8, "thickness_rule": "constant", "thickness": 0.3})]
+     {"directions": 4, "steps": 8, "thickness_rule": "constant", "thickness": 0.3}),
+    ("`bitmask` 4x8, `--spacing equal`", "bitmask",
+     {"directions": 4, "steps": 8, "spacing": "equal"}),
+    ("`bitmask` 6x6", "bitmask", {"directions": 6, "steps": 6}),
+    ("`bitmask` 6x6, `--spacing equal`", "bitmask",
+     {"directions": 6, "steps": 6, "spacing": "equal"}),
+    ("`bitmask` 8x4", "bitmask", {"directions": 8, "steps": 4}),
+    ("`bitmask` 32x32: no noise", "bitmask", {"directions": 32, "steps": 32}),
+    ("`hbao` 32x32: no noise", "hbao", {"directions": 32, "steps": 32})]
+VARIANT_HEADS = ["variant", "RMSE", "flicker", "largest flicker over that of `hbao` 8x8"]
 
 
 @dataclass(frozen=True)
@@ -48,6 +57,7 @@ class Row:
 class Variant:
     view: str
     text: str
+    rmse: float
     flicker: float
 
 
@@ -91,9 +101,11 @@ def measure(s: Study, view: View, rows: list[Row], variants: list[Variant]) -> N
             rows.append(Row(view.name, method, name, s.rmse(view, picture, truth),
                             stats.rmse(picture, truth, at_edges), flicker(s, motion, chosen)))
     varied = [(text, s.options(method, **settings)) for text, method, settings in VARIANTS]
-    s.prepare((look.view, options) for look in motion.looks[:2] for _, options in varied)
-    variants += [Variant(view.name, text, flicker(s, motion, options))
-                 for text, options in varied]
+    s.prepare((v, options) for v in (view, *(look.view for look in motion.looks[:2]))
+              for _, options in varied)
+    for text, options in varied:
+        error = s.rmse(view, s.picture(view, options), s.truth(view, options.target))
+        variants.append(Variant(view.name, text, error, flicker(s, motion, options)))
 
 
 def flicker(s: Study, motion: stability.Motion, options: Options) -> float:
@@ -128,9 +140,17 @@ HEADS = ["method", "filter", "RMSE", "at edges", "flicker", "worst RMSE", "worst
          "worst flicker"]
 
 
-def flicker_rows(variants: list[Variant]) -> list[list[str]]:
-    means = {text: [v.flicker for v in variants if v.text == text] for text, _, _ in VARIANTS}
-    return [[text, f"{sum(values) / len(values):.4f}"] for text, values in means.items()]
+def variant_rows(variants: list[Variant]) -> list[list[str]]:
+    """Means over the views, and the view on which a variant flickers most beside the first."""
+    unit = {v.view: v.flicker for v in variants if v.text == VARIANTS[0][0]}
+    table = []
+    for text, _, _ in VARIANTS:
+        found = [v for v in variants if v.text == text]
+        worst = max(found, key=lambda v: v.flicker / unit[v.view])
+        table.append([text, f"{sum(v.rmse for v in found) / len(found):.3f}",
+                      f"{sum(v.flicker for v in found) / len(found):.4f}",
+                      f"{worst.flicker / unit[worst.view]:.2f} ({worst.view})"])
+    return table
 
 
 def write(s: Study, rows: list[Row], variants: list[Variant]) -> None:
@@ -149,9 +169,9 @@ def write(s: Study, rows: list[Row], variants: list[Variant]) -> None:
     table = compared(s, rows)
     page.table("Over the default filter: of the means over the views, and of the worst view.",
                HEADS, table)
-    found = flicker_rows(variants)
-    page.table("Flicker with the default filter, mean over the views: from `hbao` to `bitmask`, "
-               "one change after the other.", ["Variant", "Flicker"], found)
+    found = variant_rows(variants)
+    page.table("With the default filter, mean over the views: from `hbao` to `bitmask`, one "
+               "change after the other, and what else was tried.", VARIANT_HEADS, found)
     page.results["filters"] = {
         "compared": table, "variants": found,
         "rows": [{"view": r.view, "method": r.method, "filter": r.filter, "rmse": r.rmse,
