@@ -164,7 +164,7 @@ typedef struct crv_result {
     size_t struct_size;      /* set by crv_result_init() */
     crv_image accessibility; /* as crv_plan_run() has it */
     /* Three channels of the same size: the bent normal (crv_weighting), view space like
-     * all normals, unit length. Background is (0, 0, 0). */
+     * all normals, unit length. Background and surfaces without a normal: (0, 0, 0). */
     crv_image bent_normal;
 } crv_result;
 
