@@ -441,9 +441,9 @@ static void what_is_wrong_is_told(void **state)
     objects o = {.line = ""};
     open_objects(&o);
     static float pixels[SMALL * SMALL], bent[3 * SMALL * SMALL];
-    crv_result result, unset = {0};
+    crv_result result, newer[2] = {{0}}; /* room for a larger struct */
     assert_int_equal(crv_result_init(&result, sizeof result), CRV_OK);
-    assert_int_equal(crv_result_init(&unset, sizeof result + 8),
+    assert_int_equal(crv_result_init(newer, sizeof result + 8),
                      CRV_ERROR_INVALID_ARGUMENT);
     crv_options options = fixture_options("gtao");
     crv_plan *plan = NULL;
