@@ -22,10 +22,11 @@ enum {
     TOP = HALO + 1 /* row of the tile */
 };
 
-/* A tile's depth, with what lies around it; -INFINITY: not on the buffers. */
+/* A tile's depth, with what lies around it; -INFINITY: not on the buffers. Rows of PITCH
+ * floats: oblique lines begin and end outside of the rows. */
 typedef struct surroundings {
-    float depth[ROWS][PITCH];
-    float least[HEIGHT][PITCH]; /* widths so far, over the depth's unit */
+    float depth[ROWS * PITCH];
+    float least[HEIGHT * PITCH]; /* widths so far, over the depth's unit */
 } surroundings;
 
 /* An axis of the image. */
@@ -42,7 +43,7 @@ static void copy_depth(surroundings *s, const crv__plane *plane, crv__tile tile)
                   x1 = right < plane->width ? right : plane->width;
     for (int32_t r = 0; r < ROWS; r++) {
         const int32_t y = tile.y0 - TOP + r;
-        float *row = s->depth[r];
+        float *row = s->depth + (ptrdiff_t)r * PITCH;
         const bool is_there = y >= 0 && y < plane->height;
         for (int32_t c = 0; c < PITCH && (!is_there || x1 - x0 < PITCH); c++)
             row[c] = -INFINITY;
@@ -98,8 +99,7 @@ CRV__INLINE void scan_strip(surroundings *s, const crv__params *p, const axis *a
                             int32_t c, int32_t low, int32_t high)
 {
     const ptrdiff_t step = PITCH + a->dx;
-    const float *depth = s->depth[0] + TOP * PITCH + c;
-    float *least = s->least[0] + c;
+    const float *depth = s->depth + (TOP * PITCH + c);
     const int32_t begin = low - a->reach, end = high + a->reach;
     if (!jumps_both_ways(p, depth + (begin - 1) * step, step, end - begin + 2))
         return;
@@ -129,7 +129,8 @@ CRV__INLINE void scan_strip(surroundings *s, const crv__params *p, const axis *a
         const vf other = vf_load(ahead[i]);
         const vm both = vm_and(vf_le(far, limit), vf_le(other, limit));
         const vf width = vf_select(both, (other + far) * length, infinity);
-        vf_store(least + i * step, vf_min(width, vf_load(least + i * step)));
+        float *least = s->least + (c + i * step);
+        vf_store(least, vf_min(width, vf_load(least)));
     }
 }
 
@@ -177,7 +178,7 @@ static void scan_columns(surroundings *s, const crv__params *p, const axis *a)
     const vf none = vf_set(-2), infinity = vf_set(INFINITY); /* an event's is positive */
     const vf limit = vf_set((float)a->reach + 0.5f), length = vf_set(a->length);
     for (int32_t r = 0; r < HEIGHT; r++) {
-        const float *row = s->depth[TOP + r];
+        const float *row = s->depth + (ptrdiff_t)(TOP + r) * PITCH;
         if (!row_jumps_both_ways(p, row))
             continue;
         for (int32_t c = PAD; c < PITCH - PAD; c += CRV__LANES) {
@@ -194,7 +195,7 @@ static void scan_columns(surroundings *s, const crv__params *p, const axis *a)
             ahead[j] = next;
             behind[i] = before;
         }
-        float *least = s->least[r];
+        float *least = s->least + (ptrdiff_t)r * PITCH;
         for (int32_t c = FIRST; c < FIRST + WIDTH; c += CRV__LANES) {
             const vf there = vf_load(ahead + c), back = vf_load(behind + c);
             const vm both = vm_and(vf_le(there, limit), vf_le(back, limit));
@@ -211,9 +212,10 @@ CRV__INLINE void write_rows(const crv__frame *f, const surroundings *s,
     for (int32_t y = tile.y0; y < tile.y1; y++) {
         for (int32_t x = tile.x0; x < tile.x1; x += CRV__LANES) {
             const int32_t rest = tile.x1 - x;
-            const float *at = &s->depth[y - tile.y0 + TOP][x - tile.x0 + FIRST];
-            const vf d = vf_load(at), infinity = vf_set(INFINITY);
-            const vf steps = vf_load(&s->least[y - tile.y0][x - tile.x0 + FIRST]);
+            const ptrdiff_t at = (y - tile.y0) * PITCH + (x - tile.x0 + FIRST);
+            const vf d = vf_load(s->depth + TOP * PITCH + at),
+                     infinity = vf_set(INFINITY);
+            const vf steps = vf_load(s->least + at);
             const vf width = p->orthographic ? steps : steps * d;
             vf_store_n(crv__plane_at(out, x, y),
                        vf_select(vf_lt(d, infinity), width, infinity), rest);
@@ -240,9 +242,8 @@ void CRV__NAME(width)(const crv__frame *f, const crv__plane *out, crv__tile tile
                rising = {.dx = -1, .reach = 22, .length = oblique};
     surroundings s;
     copy_depth(&s, &f->depth[0], tile);
-    for (int32_t r = 0; r < HEIGHT; r++)
-        for (int32_t c = 0; c < PITCH; c++)
-            s.least[r][c] = INFINITY;
+    for (int32_t i = 0; i < HEIGHT * PITCH; i++)
+        s.least[i] = INFINITY;
     scan_columns(&s, p, &columns);
     scan_rows(&s, p, &rows);
     scan_rows(&s, p, &falling);
