@@ -26,6 +26,7 @@ crevice_test(test_host_threads SOURCES test_host_threads.c
 
 # Longer ones, and those that need POSIX or the library's insides.
 crevice_test(test_closed_forms SOURCES test_closed_forms.c quadrature.c LIBS crevice_fixture)
+set_tests_properties(test_closed_forms PROPERTIES LABELS numbers)
 if(CREVICE_SANITIZE MATCHES "thread") # the other properties look at one thread's work
     set(conformance_arguments --threads)
 endif()
