@@ -380,6 +380,18 @@ static void restore_row(void *data, uint32_t index)
             bent[k][x] = (bent[k][x] - job->offset) * scale + normal[k][x];
 }
 
+/* deviate_row() before the filter, restore_row() after it, if bent normals are filtered.
+ */
+static void run_deviations(const crv__work *work, const crv__picture *of,
+                           void (*row)(void *data, uint32_t index))
+{
+    const bool by_kernel = state_of(work)->filter;
+    deviation_job job = {work->frame, of->bent, by_kernel ? 0.25f : 1,
+                         by_kernel ? 0.5f : 0};
+    if (work->with_bent && work->setup->filter)
+        crv__run_rows(work->setup->context, of->bent[0].height, row, &job);
+}
+
 static void run_filter_tile(void *data, uint32_t index)
 {
     const tiles *t = data;
@@ -421,9 +433,6 @@ static void filter_with(const crv__work *work, crv__filter_kernel kernel,
     crv__picture shown[2] = {pictures[0], pictures[1]};
     for (int i = 0; i < 2; i++)
         shown[i].accessibility = shown_part(work, &pictures[i].accessibility);
-    deviation_job job = {work->frame, shown[0].bent, 0.25f, 0.5f};
-    if (work->with_bent)
-        crv__run_rows(work->setup->context, shown[0].bent[0].height, deviate_row, &job);
     const int32_t width = shown[1].accessibility.width,
                   height = shown[1].accessibility.height;
     tiles t = {
@@ -432,9 +441,6 @@ static void filter_with(const crv__work *work, crv__filter_kernel kernel,
     const int32_t rows = (height + CRV__FILTER_TILE_HEIGHT - 1) / CRV__FILTER_TILE_HEIGHT;
     crv__run_parallel(work->setup->context, (uint32_t)t.columns * (uint32_t)rows,
                       run_filter_tile, &t);
-    job.bent = shown[1].bent;
-    if (work->with_bent)
-        crv__run_rows(work->setup->context, shown[1].bent[0].height, restore_row, &job);
 }
 
 /* ---- plans ---- */
@@ -523,20 +529,13 @@ static crv_status run(const crv__work *given, const crv__picture given_pictures[
     const int32_t passes = filter && !kernel ? filter->passes : 0;
     if (!work.filter_only)
         estimate(&work, &pictures[0]);
-    if (kernel) {
+    run_deviations(&work, &pictures[0], deviate_row);
+    if (kernel)
         filter_with(&work, kernel, pictures);
-        *result = pictures[1];
-        return CRV_OK;
-    }
-    deviation_job job = {&frame, pictures[0].bent, 1, 0};
-    if (passes && work.with_bent)
-        crv__run_rows(work.setup->context, job.bent[0].height, deviate_row, &job);
     for (int32_t pass = 0; pass < passes; pass++)
         filter_pass(&work, pass, &pictures[pass % 2], &pictures[(pass + 1) % 2]);
-    *result = pictures[passes % 2];
-    job.bent = result->bent;
-    if (passes && work.with_bent)
-        crv__run_rows(work.setup->context, job.bent[0].height, restore_row, &job);
+    *result = pictures[kernel ? 1 : passes % 2];
+    run_deviations(&work, result, restore_row);
     return CRV_OK;
 }
 
