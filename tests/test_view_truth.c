@@ -182,22 +182,34 @@ static void test_slots(void **state)
     scene_free(s);
 }
 
+/* What a session is opened with. */
+typedef struct opened {
+    report r;
+    viewer_settings settings;
+} opened;
+
+static void open_session(opened *o, session *s)
+{
+    report_init(&o->r);
+    o->r.quiet = true;
+    o->settings = (viewer_settings){.view.model = "builtin:courtyard",
+                                    .view.size = {.width = WIDTH, .height = HEIGHT},
+                                    .view.layers.value = 1};
+    assert_int_equal(
+        crv_options_init(&o->settings.view.common.options, sizeof(crv_options), NULL),
+        CRV_OK);
+    assert_int_equal(session_open(s, &o->settings, changed, NULL, &o->r), EXIT_DONE);
+}
+
 /* A whole session: many wishes, of which the last is served and measured. */
 static void test_session(void **state)
 {
     (void)state;
-    report r;
-    report_init(&r);
-    r.quiet = true;
-    viewer_settings v = {.view.model = "builtin:courtyard",
-                         .view.size = {.width = WIDTH, .height = HEIGHT},
-                         .view.layers.value = 1};
+    opened o;
     session s;
     shown got = {0};
     uint64_t number = 0, wanted = 0;
-    assert_int_equal(crv_options_init(&v.view.common.options, sizeof(crv_options), NULL),
-                     CRV_OK);
-    assert_int_equal(session_open(&s, &v, changed, NULL, &r), EXIT_DONE);
+    open_session(&o, &s);
     for (int i = 1; i <= 20; i++) {
         s.wish.view.eye[0] += 0.01;
         s.wish.half[0].options.radius = 0.02f * (float)i;
@@ -243,17 +255,10 @@ static tuning wait_for_fit(session *s)
 static void test_tuning(void **state)
 {
     (void)state;
-    report r;
-    report_init(&r);
-    r.quiet = true;
-    viewer_settings v = {.view.model = "builtin:courtyard",
-                         .view.size = {.width = WIDTH, .height = HEIGHT},
-                         .view.layers.value = 1};
+    opened o;
     session s;
     char text[TUNING_TEXT_SIZE];
-    assert_int_equal(crv_options_init(&v.view.common.options, sizeof(crv_options), NULL),
-                     CRV_OK);
-    assert_int_equal(session_open(&s, &v, changed, NULL, &r), EXIT_DONE);
+    open_session(&o, &s);
     const float radius = s.wish.half[0].options.radius;
     session_ask(&s);
     worker_tune(s.worker, 0, 1.0);
