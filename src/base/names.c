@@ -47,10 +47,14 @@ const char *crv__nearest_name(const char *word, const char *const *candidates,
     if (!word || !candidates)
         return NULL;
     /* A word of which more than a third would have to change is not a misspelling. */
-    size_t limit = clipped_length(word) / 3 + 1;
+    const size_t length = clipped_length(word);
+    size_t limit = length / 3 + 1;
     const char *nearest = NULL;
     for (int32_t i = 0; count < 0 ? !!candidates[i] : i < count; i++) {
-        size_t distance = edit_distance(word, candidates[i]);
+        const size_t other = clipped_length(candidates[i]);
+        if ((length > other ? length - other : other - length) > limit)
+            continue; /* the distance is at least that */
+        const size_t distance = edit_distance(word, candidates[i]);
         if (distance <= limit) {
             nearest = candidates[i];
             limit = distance - (distance > 0);
