@@ -27,87 +27,14 @@ static void give_back(void *user, void *memory, size_t size)
     free(memory);
 }
 
-/* An image in a block that ends with its last pixel, so that reading beyond is seen. */
-typedef struct pixels {
-    char *block;
-    crv_image image;
-} pixels;
-
-static pixels make_pixels(fuzz_bytes *in, int32_t width, int32_t height, int32_t channels)
-{
-    const uint32_t shape = fuzz_byte(in);
-    const ptrdiff_t float_size = shape & 1 ? 8 : 4, padding = (ptrdiff_t)(shape >> 4) * 4;
-    const bool planar = (shape & 2) != 0, bottom_up = (shape & 4) != 0;
-    pixels p = {.image = {.width = width, .height = height, .channels = channels}};
-    crv_image *i = &p.image;
-    i->pixel_stride = planar ? float_size : float_size * channels;
-    i->row_stride = i->pixel_stride * width + padding;
-    i->channel_stride = planar ? i->row_stride * height : float_size;
-    const size_t size =
-        (size_t)((height - 1) * i->row_stride + (width - 1) * i->pixel_stride
-                 + (channels - 1) * i->channel_stride + 4);
-    p.block = malloc(size);
-    memset(p.block, 0x7f, size);
-    i->data = (float *)(void *)p.block;
-    if (bottom_up) {
-        i->data = (float *)(void *)(p.block + (height - 1) * i->row_stride);
-        i->row_stride = -i->row_stride;
-    }
-    return p;
-}
-
-static pixels fill_pixels(fuzz_bytes *in, int32_t width, int32_t height, int32_t channels,
-                          float usual)
-{
-    pixels p = make_pixels(in, width, height, channels);
-    for (int32_t y = 0; y < height; y++)
-        for (int32_t x = 0; x < width; x++)
-            for (int32_t c = 0; c < channels; c++)
-                *crv_image_at(&p.image, x, y, c) =
-                    in->left ? fuzz_float(in, usual)
-                             : usual + 0.1f * (float)((x ^ y) % 5);
-    return p;
-}
-
-static void spoil(fuzz_bytes *in, crv_image *image)
-{
-    switch (fuzz_byte(in) % 32) {
-    case 0:
-        image->width = fuzz_int(in, 64);
-        break;
-    case 1:
-        image->height = fuzz_int(in, 64);
-        break;
-    case 2:
-        image->channels = fuzz_int(in, 4);
-        break;
-    case 3:
-        image->row_stride += 2;
-        break;
-    case 4:
-        image->data = NULL;
-        break;
-    case 5:
-        image->pixel_stride = 0;
-        break;
-    case 6:
-        image->row_stride = 0;
-        break;
-    case 7:
-        image->channel_stride = PTRDIFF_MAX;
-        break;
-    default:
-        break;
-    }
-}
-
 /* Costly numbers are made small, or a run takes minutes. */
 static double affordable(const crv_option *option, double value)
 {
+    enum { MOST = 8 };
     static const char *const costly[] = {"directions", "steps", "normal_rays", "samples"};
     for (size_t i = 0; i < sizeof costly / sizeof *costly; i++)
-        if (!strcmp(option->key, costly[i]) && value > 24.0 && value <= option->max)
-            return fmod(value, 24.0) + option->min;
+        if (!strcmp(option->key, costly[i]) && value > MOST && value <= option->max)
+            return fmod(value, MOST) + option->min;
     return value;
 }
 
@@ -135,7 +62,13 @@ static crv_options make_options(fuzz_bytes *in)
     crv_options o;
     const int32_t method = (int32_t)(fuzz_byte(in) % (uint32_t)crv_method_count());
     crv_options_init(&o, sizeof o, crv_method_at(method)->name);
-    o.filter = crv_filter_at((int32_t)(fuzz_byte(in) % 4)); /* NULL beyond the last */
+    o.directions = 2;
+    o.steps = 3;
+    o.samples = 4;
+    const uint32_t filter = fuzz_byte(in), filters = (uint32_t)crv_filter_count();
+    o.filter =
+        crv_filter_at((int32_t)(filter % (filters + 1))); /* NULL beyond the last */
+    o.bent_normal = filter >= 192;
     for (uint32_t changes = fuzz_byte(in) % 12; changes > 0; changes--)
         set_option(in, &o);
     if (fuzz_seldom(in, 8))
@@ -213,11 +146,11 @@ static void set_field(fuzz_bytes *in, crv_gbuffer *g, const crv_gbuffer_desc *d)
         crv_gbuffer_set_implicit(g, sphere, NULL);
     if (kind != 1)
         return;
-    pixels uv = fill_pixels(in, d->width, d->height, 2, 0.5f);
-    pixels tangent = fill_pixels(in, d->width, d->height, 3, 1.0f);
-    pixels bitangent = fill_pixels(in, d->width, d->height, 3, 1.0f);
-    pixels height = fill_pixels(in, 1 + (int32_t)(fuzz_byte(in) % 9),
-                                1 + (int32_t)(fuzz_byte(in) % 9), 1, 0.5f);
+    fuzz_pixels uv = fuzz_fill_pixels(in, d->width, d->height, 2, 0.5f);
+    fuzz_pixels tangent = fuzz_fill_pixels(in, d->width, d->height, 3, 1.0f);
+    fuzz_pixels bitangent = fuzz_fill_pixels(in, d->width, d->height, 3, 1.0f);
+    fuzz_pixels height = fuzz_fill_pixels(in, 1 + (int32_t)(fuzz_byte(in) % 9),
+                                          1 + (int32_t)(fuzz_byte(in) % 9), 1, 0.5f);
     crv_height_field field = {.uv = crv_image_const(uv.image),
                               .tangent = crv_image_const(tangent.image),
                               .bitangent = crv_image_const(bitangent.image),
@@ -236,7 +169,7 @@ static void set_frame(fuzz_bytes *in, crv_gbuffer *g, const crv_gbuffer_desc *d)
     const crv_camera camera = make_camera(in, d);
     crv_gbuffer_set_camera(g, &camera);
     for (int32_t layer = 0; layer < d->layers; layer++) {
-        pixels depth = fill_pixels(in, d->width, d->height, 1, 2.0f);
+        fuzz_pixels depth = fuzz_fill_pixels(in, d->width, d->height, 1, 2.0f);
         crv_depth_format format = crv_depth_format_planar();
         if (fuzz_seldom(in, 4)) {
             format.encoding = (crv_depth_encoding)(fuzz_byte(in) % 10);
@@ -244,31 +177,31 @@ static void set_frame(fuzz_bytes *in, crv_gbuffer *g, const crv_gbuffer_desc *d)
             format.z_far = fuzz_float(in, 100.0f);
             format.background = fuzz_float(in, 100.0f);
         }
-        spoil(in, &depth.image);
+        fuzz_spoil(in, &depth.image);
         const crv_const_image image = crv_image_const(depth.image);
         crv_gbuffer_set_depth(g, fuzz_seldom(in, 32) ? fuzz_int(in, 5) : layer, &image,
                               &format);
         free(depth.block);
+        if (fuzz_seldom(in, 8)) {
+            fuzz_texels texels = fuzz_make_texels(in, d->width, d->height, 1);
+            crv_gbuffer_set_depth_texels(g, layer, &texels.texels, &format);
+            free(texels.block);
+        }
     }
     if (fuzz_byte(in) & 1) {
-        pixels normals = fill_pixels(in, d->width, d->height, 3, 0.5f);
-        spoil(in, &normals.image);
+        fuzz_pixels normals = fuzz_fill_pixels(in, d->width, d->height, 3, 0.5f);
+        fuzz_spoil(in, &normals.image);
         const crv_const_image image = crv_image_const(normals.image);
         crv_gbuffer_set_normals(g, &image, (crv_normal_space)(fuzz_byte(in) % 3));
         free(normals.block);
     }
+    if (fuzz_seldom(in, 8)) {
+        fuzz_texels texels = fuzz_make_texels(in, d->width, d->height, 3);
+        crv_gbuffer_set_normals_texels(g, &texels.texels,
+                                       (crv_normal_space)(fuzz_byte(in) % 3));
+        free(texels.block);
+    }
     set_field(in, g, d);
-}
-
-static void check_range(const crv_image *image, const char *what)
-{
-    for (int32_t y = 0; y < image->height; y++)
-        for (int32_t x = 0; x < image->width; x++)
-            for (int32_t c = 0; c < image->channels; c++) {
-                const float value = *crv_image_at(image, x, y, c);
-                FUZZ_CHECK(value >= 0.0f && value <= 1.0f, "%s: %g at %d, %d", what,
-                           (double)value, x, y);
-            }
 }
 
 static void check_lengths(const crv_image *image)
@@ -288,7 +221,7 @@ static void check_lengths(const crv_image *image)
 
 static void check_normals(fuzz_bytes *in, crv_gbuffer *g, const crv_gbuffer_desc *d)
 {
-    pixels normals = make_pixels(in, d->width, d->height, 3);
+    fuzz_pixels normals = fuzz_make_pixels(in, d->width, d->height, 3);
     if (crv_gbuffer_get_normals(g, &normals.image) == CRV_OK)
         check_lengths(&normals.image);
     free(normals.block);
@@ -298,13 +231,13 @@ static void check_normals(fuzz_bytes *in, crv_gbuffer *g, const crv_gbuffer_desc
 static void run_bent(fuzz_bytes *in, crv_plan *plan, crv_gbuffer *g, int32_t width,
                      int32_t height)
 {
-    pixels bent = make_pixels(in, width, height, 3);
+    fuzz_pixels bent = fuzz_make_pixels(in, width, height, 3);
     crv_result result;
     crv_result_init(&result, sizeof result);
     result.bent_normal = bent.image;
     if (crv_plan_run_result(plan, g, &result) == CRV_OK)
         check_lengths(&bent.image);
-    spoil(in, &result.bent_normal);
+    fuzz_spoil(in, &result.bent_normal);
     if (memcmp(&result.bent_normal, &bent.image, sizeof bent.image))
         crv_plan_run_result(plan, g, &result);
     free(bent.block);
@@ -315,14 +248,14 @@ static void run(fuzz_bytes *in, crv_plan *plan, crv_gbuffer *g, const crv_gbuffe
 {
     const int32_t width = d->width - d->guard_left - d->guard_right;
     const int32_t height = d->height - d->guard_top - d->guard_bottom;
-    pixels result = make_pixels(in, width, height, 1);
+    fuzz_pixels result = fuzz_make_pixels(in, width, height, 1);
     crv_image spoilt = result.image;
-    spoil(in, &spoilt);
+    fuzz_spoil(in, &spoilt);
     if (memcmp(&spoilt, &result.image, sizeof spoilt))
         crv_plan_run(plan, g, &spoilt);
     if (crv_plan_run(plan, g, &result.image) == CRV_OK) {
-        check_range(&result.image, method);
-        pixels given = fill_pixels(in, width, height, 1, 0.5f);
+        fuzz_check_pixels(&result.image, 0.0f, 1.0f, method);
+        fuzz_pixels given = fuzz_fill_pixels(in, width, height, 1, 0.5f);
         const crv_const_image input = crv_image_const(given.image);
         if (crv_plan_filter(plan, g, &input, &result.image) == CRV_OK)
             for (int32_t y = 0; y < height; y++)
@@ -331,8 +264,8 @@ static void run(fuzz_bytes *in, crv_plan *plan, crv_gbuffer *g, const crv_gbuffe
                                "filtered: %d, %d", x, y);
         free(given.block);
         const int32_t samples = 2 + (int32_t)(fuzz_byte(in) % 7);
-        pixels depths = fill_pixels(in, width, height, samples, 2.0f);
-        pixels gathered = make_pixels(in, width, height, samples);
+        fuzz_pixels depths = fuzz_fill_pixels(in, width, height, samples, 2.0f);
+        fuzz_pixels gathered = fuzz_make_pixels(in, width, height, samples);
         const crv_const_image estimate = crv_image_const(result.image);
         const crv_const_image sample_depth = crv_image_const(depths.image);
         if (crv_multisample_gather(g, &estimate, &sample_depth, NULL,
@@ -348,27 +281,6 @@ static void run(fuzz_bytes *in, crv_plan *plan, crv_gbuffer *g, const crv_gbuffe
         run_bent(in, plan, g, width, height);
     }
     free(result.block);
-}
-
-static void convert(fuzz_bytes *in)
-{
-    float m[16];
-    crv_camera camera;
-    for (int i = 0; i < 16; i++)
-        m[i] = fuzz_byte(in) & 1 ? 0.0f : fuzz_float(in, 1.0f);
-    if (crv_camera_from_projection(&camera, m, (crv_matrix_layout)(fuzz_byte(in) % 2),
-                                   fuzz_int(in, 100), fuzz_int(in, 100), &fuzz_logger)
-        == CRV_OK)
-        FUZZ_CHECK(camera.fx_px > 0.0f && isfinite(camera.fx_px) && camera.fy_px > 0.0f
-                       && isfinite(camera.fy_px),
-                   "%g, %g", (double)camera.fx_px, (double)camera.fy_px);
-    camera = crv_camera_perspective(1, 1, 1.0f);
-    float points[9];
-    for (int i = 0; i < 9; i++)
-        points[i] = fuzz_float(in, 1.0f);
-    if (crv_camera_look_at(&camera, points, points + 3, points + 6) == CRV_OK)
-        for (int i = 0; i < 9; i++)
-            FUZZ_CHECK(isfinite(camera.world_to_view[i]), "row %d", i / 3);
 }
 
 static void use(fuzz_bytes *in, crv_context *context)
@@ -414,5 +326,4 @@ void fuzz_api(const uint8_t *data, size_t size)
         FUZZ_CHECK(a.failing > 0, "no context");
     crv_context_destroy(context);
     FUZZ_CHECK(a.taken == 0, "%d blocks are left", a.taken);
-    convert(&in);
 }

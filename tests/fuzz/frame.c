@@ -52,6 +52,8 @@ static void estimate(const io_frame *f, crv_gbuffer *gbuffer, uint8_t knob)
     crv_options o;
     crv_options_init(&o, sizeof o, crv_method_at(knob % crv_method_count())->name);
     o.radius = knob & 128 ? 50.0f : 0.5f;
+    o.directions = o.steps = o.samples = 3; /* what was read is the point */
+    o.bent_normal = (knob & 64) && o.method->bent_normal;
     if (crv_plan_create(context, &o, d, &plan) == CRV_OK) {
         const int32_t width = d->width - d->guard_left - d->guard_right;
         const int32_t height = d->height - d->guard_top - d->guard_bottom;

@@ -23,10 +23,13 @@ void fuzz_frame(const uint8_t *data, size_t size);
 /* Descriptions, strides, options and pixels of the public interface, with an allocator
  * that may fail. */
 void fuzz_api(const uint8_t *data, size_t size);
+/* Its conversions: texels, depth, matrices, cameras, options; a picture in one call. */
+void fuzz_convert(const uint8_t *data, size_t size);
 /* A letter for the extension, then a model file, through the import's child process. */
 void fuzz_mesh(const uint8_t *data, size_t size);
 /* The extensions in the order of their letters, from 'a'; NULL-terminated. */
 extern const char *const fuzz_mesh_extensions[];
+const char *fuzz_mesh_extension(uint8_t letter);
 /* glTF, as the child process reads it. */
 void fuzz_gltf(const uint8_t *data, size_t size);
 /* What a child process whose reader was taken over may send. */
@@ -81,5 +84,33 @@ bool fuzz_seldom(fuzz_bytes *in, uint32_t times);
 int32_t fuzz_int(fuzz_bytes *in, int32_t most);
 /* Near the usual value; one time in two something extreme. */
 float fuzz_float(fuzz_bytes *in, float usual);
+
+/* pixels.c */
+
+/* An image in a block that ends with its last pixel, so that reading beyond is seen; of
+ * any strides. The block is to be freed. */
+typedef struct fuzz_pixels {
+    char *block;
+    crv_image image;
+} fuzz_pixels;
+
+fuzz_pixels fuzz_make_pixels(fuzz_bytes *in, int32_t width, int32_t height,
+                             int32_t channels);
+/* The same with values as fuzz_float() gives them. */
+fuzz_pixels fuzz_fill_pixels(fuzz_bytes *in, int32_t width, int32_t height,
+                             int32_t channels, float usual);
+/* Breaks one member of the image, one time in four. */
+void fuzz_spoil(fuzz_bytes *in, crv_image *image);
+/* Ends the process unless every value lies between the two. */
+void fuzz_check_pixels(const crv_image *image, float least, float most, const char *what);
+
+/* The same for texels of any type, any bytes in them; seldom with a broken member. */
+typedef struct fuzz_texels {
+    char *block;
+    crv_texels texels;
+} fuzz_texels;
+
+fuzz_texels fuzz_make_texels(fuzz_bytes *in, int32_t width, int32_t height,
+                             int32_t channels);
 
 #endif

@@ -30,7 +30,7 @@ static const struct {
     {"image", fuzz_image},     {"frame", fuzz_frame},   {"api", fuzz_api},
     {"mesh", fuzz_mesh},       {"gltf", fuzz_gltf},     {"pipe", fuzz_pipe},
     {"text", fuzz_text},       {"sky", fuzz_sky},       {"checkpoint", fuzz_checkpoint},
-    {"cameras", fuzz_cameras}, {"append", fuzz_append},
+    {"cameras", fuzz_cameras}, {"append", fuzz_append}, {"convert", fuzz_convert},
 };
 enum { TARGET_COUNT = sizeof targets / sizeof *targets };
 

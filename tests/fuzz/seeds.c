@@ -12,6 +12,7 @@
 #include "seeds.h"
 
 #include "commands.h"
+#include "common/viewer_args.h"
 #include "import_assimp.h"
 #include "reference_internal.h"
 
@@ -83,24 +84,26 @@ static void write_text(void)
 {
     static const command *const commands[] = {
         &command_render,  &command_ao,      &command_gbuffer, &command_reference,
-        &command_compare, &command_methods, &command_devices, &command_bench};
+        &command_compare, &command_methods, &command_devices, &command_bench,
+        &command_tune,    &command_view};
+    enum { COUNT = sizeof commands / sizeof *commands };
     char name[64];
-    for (int i = 0; i < 8; i++)
+    for (int i = 0; i < COUNT; i++)
         for (int e = 1; commands[i]->examples && commands[i]->examples[e - 1]; e += 2) {
             const char *words = commands[i]->examples[e];
             for (int skip = 0; skip < 2; skip++) /* "crevice" and the command */
                 words = strchr(words, ' ') ? strchr(words, ' ') + 1 : "";
             snprintf(name, sizeof name, "%s-%d", commands[i]->name, e / 2);
-            write_words(name, (char)('P' + i), words); /* 'P' is 0 modulo 10 */
+            write_words(name, (char)('T' + i), words); /* 'T' is 0 modulo 12 */
         }
     for (int32_t m = 0; m < crv_method_count(); m++) {
         char line[2048];
         const crv_method *method = crv_method_at(m);
         snprintf(line, sizeof line, "method %s %s", method->name,
                  crv_preset_text(method, CRV_PRESET_PAPER));
-        write_words(method->name, 'P' + 8, line);
+        write_words(method->name, 'T' + COUNT, line);
     }
-    write_words("frames", 'P' + 9,
+    write_words("frames", 'T' + COUNT + 1,
                 "1-240 1,3,10-20x2 -5--1 shot.####.exr shot.%04d.exr "
                 "shot.$F4.exr shot.<frame>.exr");
     static const char *const lights[] = {"wpainted\n30,40,2", "wconstant:1,2,3\nnone",
@@ -136,7 +139,7 @@ static void write_cameras(void)
 static void write_calls(void)
 {
     uint32_t state = 1;
-    for (int i = 0; i < 48; i++) {
+    for (int i = 0; i < 96; i++) {
         uint8_t data[200];
         char name[32];
         for (size_t k = 0; k < sizeof data; k++) {
@@ -146,6 +149,8 @@ static void write_calls(void)
         data[0] &= 0xbf; /* no failing allocation */
         snprintf(name, sizeof name, "calls-%02d", i);
         seeds_write("api", name, data, sizeof data);
+        data[0] = (uint8_t)i; /* each kind in turn */
+        seeds_write("convert", name, data, sizeof data);
     }
 }
 

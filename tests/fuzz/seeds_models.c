@@ -34,6 +34,8 @@ static void find_letter(const char *name, char letter[2])
     FUZZ_CHECK(fuzz_mesh_extensions[i], "%s is not in the table", extension);
     letter[0] = (char)('a' + i);
     letter[1] = '\0';
+    FUZZ_CHECK(!strcmp(fuzz_mesh_extension((uint8_t)letter[0]), extension),
+               "%s is read as another", name);
 }
 
 void seeds_write_model(const char *name, const void *data, size_t size)

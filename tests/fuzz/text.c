@@ -8,10 +8,12 @@
 #include "common/nearest.h"
 #include "common/options_file.h"
 #include "common/frames.h"
+#include "common/viewer_args.h"
 
 static const command *const commands[] = {
     &command_render,  &command_ao,      &command_gbuffer, &command_reference,
-    &command_compare, &command_methods, &command_devices, &command_bench};
+    &command_compare, &command_methods, &command_devices, &command_bench,
+    &command_tune,    &command_view};
 enum {
     COMMAND_COUNT = sizeof commands / sizeof *commands,
     MAX_WORDS = 64,
