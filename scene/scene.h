@@ -228,6 +228,13 @@ int scene_sky_from_equirect(const float *rgb, int32_t width, int32_t height,
 void scene_sky_irradiance(const scene_lighting *lighting, const float normal[3],
                           float rgb[3]);
 
+/* What a surface gets if only a part of the sky is visible: of a share `accessibility` of
+ * red, green and blue light (0 to 1, cosine weighting), around the mean open direction
+ * bent_normal, unit. All open it is scene_sky_irradiance(); the less is open, the less
+ * the sky is blurred (sky_opening.c). The direction is in the sky's space. */
+void scene_sky_open_irradiance(const scene_lighting *lighting, const float bent_normal[3],
+                               const float accessibility[3], float rgb[3]);
+
 /* What the background shows in this unit direction of the sky's space. */
 void scene_sky_radiance(const scene_lighting *lighting, const float direction[3],
                         float rgb[3]);
@@ -236,17 +243,18 @@ void scene_sky_radiance(const scene_lighting *lighting, const float direction[3]
 typedef struct scene_occlusion {
     /* One channel, or three: of red, green and blue light. data NULL: all open. */
     crv_const_image accessibility;
-    /* Three channels, view space: the sky lights a surface as if it faced there. data
-     * NULL: the normals. */
+    /* Three channels, view space: around it the sky is seen, as by
+     * scene_sky_open_irradiance(). data NULL: the normals, with the irradiance of the
+     * whole sky times accessibility. */
     crv_const_image bent_normal;
 } scene_occlusion;
 
 /*
  * Lights the picture inside the guard band:
- * albedo (irradiance / pi * accessibility + key_colour max(0, n.l) shadow). Accessibility
- * does not darken the key light, whose shadows are ray-cast. lighting NULL: the default.
- * occlusion NULL: a picture without ambient occlusion. rgb: three channels, linear;
- * background gets the sky.
+ * albedo (irradiance / pi + key_colour max(0, n.l) shadow), the irradiance being that of
+ * the part of the sky that is visible. Accessibility does not darken the key light, whose
+ * shadows are ray-cast. lighting NULL: the default. occlusion NULL: a picture without
+ * ambient occlusion. rgb: three channels, linear; background gets the sky.
  */
 int scene_shade(const scene *s, const scene_gbuffer *g, const scene_lighting *lighting,
                 const scene_occlusion *occlusion, const crv_image *rgb, int32_t threads,

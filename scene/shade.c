@@ -64,6 +64,17 @@ static vec3 view_to_world(const lighting *l, vec3 v)
                     v.z);
 }
 
+static vec3 irradiance_through(const lighting *l, vec3 normal, const opening *open)
+{
+    const vec3 bent = open->bent_normal;
+    if (!(v3_dot(bent, bent) > 0.0))
+        return multiply(sky_irradiance(&l->light, &l->table, to_sky(l, normal)),
+                        open->accessibility);
+    return sky_open_irradiance(&l->light, &l->table,
+                               to_sky(l, view_to_world(l, v3_normalise(bent))),
+                               open->accessibility);
+}
+
 static vec3 shade_pixel(const lighting *l, int32_t x, int32_t y, const opening *open)
 {
     const scene_gbuffer *g = l->gbuffer;
@@ -73,12 +84,8 @@ static vec3 shade_pixel(const lighting *l, int32_t x, int32_t y, const opening *
     if (!(depth > 0.0 && isfinite(depth)))
         return sky_radiance(&l->light, to_sky(l, v3_normalise(ray.direction)));
     vec3 normal = view_to_world(l, v3_from(g->normals + 3 * pixel));
-    vec3 facing_sky = v3_dot(open->bent_normal, open->bent_normal) > 0.0
-                          ? view_to_world(l, v3_normalise(open->bent_normal))
-                          : normal;
     vec3 point = v3_along(ray.origin, ray.direction, depth);
-    vec3 light = multiply(sky_irradiance(&l->light, &l->table, to_sky(l, facing_sky)),
-                          v3_scale(open->accessibility, 1.0 / SCENE_PI));
+    vec3 light = v3_scale(irradiance_through(l, normal, open), 1.0 / SCENE_PI);
     double facing = v3_dot(normal, l->to_key);
     if (l->has_key && facing > 0.0
         && !in_shadow(l, shadow_origin(l, point, normal, depth)))

@@ -92,6 +92,33 @@ vec3 sky_irradiance(const scene_lighting *l, const sky_table *table, vec3 normal
     }
 }
 
+/* Of a sky that is the same all around the zenith band l is P_l(cosine) times
+ * (2 l + 1)/2 Int L P_l. */
+sky_bands sky_bands_at(const scene_lighting *l, vec3 direction)
+{
+    const double cosine = fmin(fmax(direction.y, -1.0), 1.0);
+    sky_bands bands = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+    switch (l->sky) {
+    case SCENE_SKY_CONSTANT:
+        return bands;
+    case SCENE_SKY_GRADIENT:
+        /* 3/2 (-g/2 + h/2 + 2/5 (z - h)) and 5/2 (2/21) (z - h). */
+        bands.first = v3_scale(v3_from(l->ground), -0.75 * cosine);
+        bands.first = v3_along(bands.first, v3_from(l->horizon), 0.15 * cosine);
+        bands.first = v3_along(bands.first, v3_from(l->zenith), 0.6 * cosine);
+        bands.second = v3_scale(v3_sub(v3_from(l->zenith), v3_from(l->horizon)),
+                                5.0 / 21.0 * (1.5 * cosine * cosine - 0.5));
+        return bands;
+    case SCENE_SKY_ENVIRONMENT:
+        return sky_harmonic_bands(l->environment, direction);
+    case SCENE_SKY_PAINTED:
+    default:
+        /* What lights is linear in the normal's cosine, of which 2/3 is kept. */
+        bands.first = v3_scale(v3_sub(sky_light, ground_light), 0.75 * cosine);
+        return bands;
+    }
+}
+
 static vec3 texel(const scene_lighting *l, int64_t column, int64_t row)
 {
     int64_t x = (column + l->picture_width) % l->picture_width;

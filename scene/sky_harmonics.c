@@ -28,8 +28,8 @@ static void get_factors(double factor[HARMONICS])
     factor[8] = second / 2.0;
 }
 
-/* The sum over the harmonics, each band times its weight, not below 0. */
-static vec3 evaluate(const float environment[9][3], const double band[3], vec3 d)
+/* The sum over the harmonics, each band times its weight. */
+static vec3 sum_of_bands(const float environment[9][3], const double band[3], vec3 d)
 {
     const double polynomial[HARMONICS] = {1.0,
                                           d.y,
@@ -49,20 +49,32 @@ static vec3 evaluate(const float environment[9][3], const double band[3], vec3 d
                             : i < 4 ? 1
                                     : 2]
                            * factor[i] * polynomial[i]);
-    return v3(fmax(sum.x, 0.0), fmax(sum.y, 0.0), fmax(sum.z, 0.0));
+    return sum;
+}
+
+static vec3 not_below_0(vec3 v)
+{
+    return v3(fmax(v.x, 0.0), fmax(v.y, 0.0), fmax(v.z, 0.0));
 }
 
 vec3 sky_harmonic_radiance(const float environment[9][3], vec3 direction)
 {
-    return evaluate(environment, (const double[3]){1.0, 1.0, 1.0}, direction);
+    const double band[3] = {1.0, 1.0, 1.0};
+    return not_below_0(sum_of_bands(environment, band, direction));
 }
 
 /* The clamped cosine's own harmonics: eq. 8 of the paper. */
 vec3 sky_harmonic_irradiance(const float environment[9][3], vec3 normal)
 {
-    return evaluate(environment,
-                    (const double[3]){SCENE_PI, 2.0 * SCENE_PI / 3.0, SCENE_PI / 4.0},
-                    normal);
+    const double band[3] = {SCENE_PI, 2.0 * SCENE_PI / 3.0, SCENE_PI / 4.0};
+    return not_below_0(sum_of_bands(environment, band, normal));
+}
+
+sky_bands sky_harmonic_bands(const float environment[9][3], vec3 direction)
+{
+    return (sky_bands){
+        .first = sum_of_bands(environment, (const double[3]){0.0, 1.0, 0.0}, direction),
+        .second = sum_of_bands(environment, (const double[3]){0.0, 0.0, 1.0}, direction)};
 }
 
 double sky_usable_radiance(float value)

@@ -194,11 +194,17 @@ static double median_angle_deg(const fixture *f)
     return angles[count / 2];
 }
 
-/* Accessibility times the irradiance of the bent normal, instead of that of the normal,
- * is at most half as wrong. most: for the estimators' bent normals, which one depth layer
- * misleads about thin things. Accessibility is the traced one: its own error would hide
- * that of the light. */
-static void check(const char *name, double radius, double most)
+/* The error of light through the opening around the bent normal, as a share of that of
+ * accessibility times the normal's irradiance. */
+typedef struct shares {
+    double traced;    /* of traced bent normals, at most */
+    double estimated; /* of the estimators', which one depth layer misleads about thin
+                         things */
+} shares;
+
+/* Accessibility is the traced one: its own error would hide that of the light. Without
+ * the narrowing of the sky's bands the shares of traced ones are 0.3 to 0.4. */
+static void check(const char *name, double radius, shares most)
 {
     static const char *const methods[] = {"gtao", "bitmask"};
     fixture *f = calloc(1, sizeof *f);
@@ -210,7 +216,7 @@ static void check(const char *name, double radius, double most)
         "%s, radius %g: RMSE of irradiance %.4f by normals, %.4f by traced bent "
         "normals (%.2f)\n",
         name, radius, normal, traced, traced / normal);
-    assert_true(traced <= 0.5 * normal);
+    assert_true(traced <= most.traced * normal);
     for (int i = 0; i < 2; i++) {
         estimate(f, methods[i]);
         const double angle = median_angle_deg(f);
@@ -221,7 +227,7 @@ static void check(const char *name, double radius, double most)
             methods[i], bent, bent / normal, lit_rmse(f, f->ao, NULL),
             lit_rmse(f, f->ao, f->bent), angle);
         assert_true(angle <= 5.0);
-        assert_true(bent <= most * normal);
+        assert_true(bent <= most.estimated * normal);
     }
     close_fixture(f);
 }
@@ -229,21 +235,21 @@ static void check(const char *name, double radius, double most)
 static void test_courtyard(void **state)
 {
     (void)state;
-    check("courtyard", 0.5, 1.0);
-    check("courtyard", 2.0, 1.0);
+    check("courtyard", 0.5, (shares){.traced = 0.25, .estimated = 1.0});
+    check("courtyard", 2.0, (shares){.traced = 0.25, .estimated = 1.0});
 }
 
 static void test_corner(void **state)
 {
     (void)state;
-    check("corner", 2.0, 0.5);
+    check("corner", 2.0, (shares){.traced = 0.15, .estimated = 0.25});
 }
 
 static void test_thin(void **state)
 {
     (void)state;
-    check("blades", 0.5, 1.5);
-    check("leaves", 2.0, 2.0);
+    check("blades", 0.5, (shares){.traced = 0.35, .estimated = 1.5});
+    check("leaves", 2.0, (shares){.traced = 0.45, .estimated = 2.0});
 }
 
 int main(void)
