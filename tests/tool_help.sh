@@ -8,6 +8,9 @@ good --help
 for command in render ao gbuffer reference compare methods devices bench tune; do
     grep -q "^  $command " stdout.txt || fail "$command is not in the overview"
 done
+for topic in passes camera scenes; do
+    grep -q "^  help $topic " stdout.txt || fail "$topic is not in the overview"
+done
 for command in render ao gbuffer reference compare methods devices bench tune; do
     good help $command
     mv stdout.txt help.txt
@@ -80,4 +83,4 @@ code=0
 grep -q '^usage: crevice' stderr.txt || fail "no usage without arguments"
 bad 2 'did you mean render' rendr model.glb
 bad 2 'no such command' frobnicate
-bad 2 'no such command' help frobnicate
+bad 2 'no such command or topic' help frobnicate

@@ -250,7 +250,7 @@ void help_command(FILE *out, const command *c, const crv_method *method)
     help_write(out, &plain, c, method);
 }
 
-void help_overview(FILE *out, const command *const *commands)
+void help_overview(FILE *out, const command *const *commands, const help_topic *topics)
 {
     fprintf(out, "usage: crevice COMMAND ...\n\n"
                  "Ambient occlusion from meshes, and from depth and normal passes.\n\n");
@@ -259,6 +259,9 @@ void help_overview(FILE *out, const command *const *commands)
         snprintf(head, sizeof head, "%-10s", commands[i]->name);
         fprintf(out, "  %s %s\n", head, commands[i]->summary);
     }
+    fputc('\n', out);
+    for (size_t i = 0; topics[i].name; i++)
+        fprintf(out, "  help %-8s %s\n", topics[i].name, topics[i].summary);
     fprintf(out, "\n`crevice help COMMAND` says more; `crevice --version` the version.\n"
                  "Exit code: 0 done, 1 failed, 2 wrong usage.\n");
 }

@@ -23,8 +23,15 @@ void help_write(FILE *out, const help_style *style, const command *c,
 /* All about one command; presets and defaults are those of the method. */
 void help_command(FILE *out, const command *c, const crv_method *method);
 
-/* What there is; commands NULL-terminated. */
-void help_overview(FILE *out, const command *const *commands);
+/* A page of help that is not about one command. */
+typedef struct help_topic {
+    const char *name;
+    const char *summary; /* one line */
+    void (*write)(FILE *out);
+} help_topic;
+
+/* What there is; commands NULL-terminated, topics ending with a name that is NULL. */
+void help_overview(FILE *out, const command *const *commands, const help_topic *topics);
 
 /* A line of the library's option table: flag, help, unit, range, and the default that the
  * method has for it (NULL: the default method). */

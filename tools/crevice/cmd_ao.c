@@ -273,7 +273,8 @@ static int run(const void *settings, report *r)
 
 const command command_ao = {
     .name = "ao",
-    .summary = "depth and normal passes to ambient occlusion, also for whole shots",
+    .summary =
+        "compute ambient occlusion from depth and normal passes, also of whole shots",
     .synopsis = "IN.exr -o OUT.exr [options]",
     .details =
         "The result has the frame's data window, overscan included. Without --radius the "

@@ -427,7 +427,7 @@ static int run(const void *settings, report *r)
 
 const command command_bench = {
     .name = "bench",
-    .summary = "how fast the methods are on this machine",
+    .summary = "measure how fast the methods are on this machine",
     .synopsis = "[INPUT...] [options]",
     .details =
         "Measures the library on frames that are ready in memory, a line for each "

@@ -378,8 +378,8 @@ static int run(const void *settings, report *r)
 
 const command command_compare = {
     .name = "compare",
-    .summary = "the difference of two pictures: RMSE, MAE, PSNR, SSIM, FLIP, signed "
-               "error, best fits, heat map",
+    .summary = "compare two pictures: RMSE, MAE, PSNR, SSIM, FLIP, signed error, heat "
+               "map",
     .synopsis = "A B [--channel NAME] [--heat-map FILE] [--json]",
     .details =
         "Of a renderer's file the pass of ambient occlusion is taken by its name, and "

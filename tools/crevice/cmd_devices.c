@@ -85,7 +85,7 @@ static int run(const void *settings, report *r)
 
 const command command_devices = {
     .name = "devices",
-    .summary = "the processors and GPUs that --device may name",
+    .summary = "list the processors and GPUs that --device may name",
     .synopsis = "[--json]",
     .tables = tables,
     .examples = examples,

@@ -90,7 +90,7 @@ static int run(const void *settings, report *r)
 
 const command command_gbuffer = {
     .name = "gbuffer",
-    .summary = "depth layers, normals and camera of a mesh as an EXR file",
+    .summary = "write depth layers, normals and camera of a mesh to an EXR file",
     .synopsis = "MODEL -o FILE.exr [options]",
     .details =
         "Channels: Z (planar depth in scene units, infinite for the background), "

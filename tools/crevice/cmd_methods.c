@@ -228,7 +228,7 @@ static int run(const void *settings, report *r)
 
 const command command_methods = {
     .name = "methods",
-    .summary = "what there is, from which paper, which options and presets",
+    .summary = "list methods and filters with their papers, options and presets",
     .synopsis = "[NAME] [--json]",
     .tables = tables,
     .examples = examples,

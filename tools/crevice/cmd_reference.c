@@ -285,7 +285,7 @@ static int run(const void *settings, report *r)
 
 const command command_reference = {
     .name = "reference",
-    .summary = "ray-traced ambient occlusion of a mesh, to measure others against",
+    .summary = "ray-trace the ambient occlusion of a mesh, to measure methods against",
     .synopsis = "MODEL -o FILE.exr [options]",
     .details =
         "Channels: AO, AO.stderr (its estimated standard error), bent.X bent.Y bent.Z "

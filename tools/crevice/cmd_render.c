@@ -385,7 +385,7 @@ static int run(const void *settings, report *r)
 
 const command command_render = {
     .name = "render",
-    .summary = "a mesh to a picture of its ambient occlusion",
+    .summary = "draw the ambient occlusion of a mesh",
     .synopsis = "MODEL -o FILE [options]",
     .details =
         "The mesh is drawn by ray casting, so no GPU is needed. Without a camera the "

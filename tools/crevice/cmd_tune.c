@@ -354,8 +354,9 @@ static int run(const void *settings, report *r)
 
 const command command_tune = {
     .name = "tune",
-    .summary = "fits options of a method to the truth: ray-traced of a mesh, a pass of a "
-               "frame",
+    .summary =
+        "fit options of a method to the truth: of a mesh ray-traced, of a frame its "
+        "own pass",
     .synopsis = "INPUT [--method NAME] [-o FILE] [options]",
     .details =
         "Options given are those that the search begins with; what --fit does not name "

@@ -32,7 +32,18 @@ static const command *const commands[] = {&command_render,
                                           &command_view,
                                           NULL};
 
-static const command *find_command(const char *name, report *r)
+static const help_topic topics[] = {
+    {.name = "passes",
+     .summary = "the passes of renderers that `crevice ao` knows by name",
+     .write = help_passes},
+    {.name = "camera", .summary = "files of cameras, for --camera", .write = help_camera},
+    {.name = "scenes",
+     .summary = "scenes made in code: builtin:NAME",
+     .write = help_scenes},
+    {.name = NULL}};
+
+/* NULL with an error for an unknown name. kind: what it should have been. */
+static const command *find_command(const char *name, const char *kind, report *r)
 {
     const char *names[16];
     int32_t count = 0;
@@ -43,9 +54,9 @@ static const command *find_command(const char *name, report *r)
     }
     const char *nearest = nearest_name(name, names, count);
     if (nearest)
-        report_error(r, "%s: no such command; did you mean %s?", name, nearest);
+        report_error(r, "%s: no such %s; did you mean %s?", name, kind, nearest);
     else
-        report_error(r, "%s: no such command; see `crevice help`", name);
+        report_error(r, "%s: no such %s; see `crevice help`", name, kind);
     return NULL;
 }
 
@@ -58,7 +69,7 @@ static int help_as_pages(int argc, char **argv, report *r)
             manual_overview(stdout, commands);
             return EXIT_DONE;
         }
-        const command *c = find_command(argv[1], r);
+        const command *c = find_command(argv[1], "command", r);
         if (c)
             manual_command(stdout, c);
         return c ? EXIT_DONE : EXIT_USAGE;
@@ -78,24 +89,18 @@ static int help_as_pages(int argc, char **argv, report *r)
 static int help(int argc, char **argv, report *r)
 {
     if (argc == 0) {
-        help_overview(stdout, commands);
+        help_overview(stdout, commands, topics);
         return EXIT_DONE;
     }
     if (strncmp(argv[0], "--", 2) == 0)
         return help_as_pages(argc, argv, r);
-    if (strcmp(argv[0], "passes") == 0) {
-        help_passes(stdout);
-        return EXIT_DONE;
+    for (const help_topic *t = topics; t->name; t++) {
+        if (strcmp(t->name, argv[0]) == 0) {
+            t->write(stdout);
+            return EXIT_DONE;
+        }
     }
-    if (strcmp(argv[0], "camera") == 0) {
-        help_camera(stdout);
-        return EXIT_DONE;
-    }
-    if (strcmp(argv[0], "scenes") == 0) {
-        help_scenes(stdout);
-        return EXIT_DONE;
-    }
-    const command *c = find_command(argv[0], r);
+    const command *c = find_command(argv[0], "command or topic", r);
     if (!c)
         return EXIT_USAGE;
     help_command(stdout, c, args_method(c, argc - 1, argv + 1));
@@ -131,7 +136,7 @@ static int run_command(const command *c, int argc, char **argv, report *r)
 static int dispatch(int argc, char **argv, report *r)
 {
     if (argc < 2) {
-        help_overview(stderr, commands);
+        help_overview(stderr, commands, topics);
         return EXIT_USAGE;
     }
     if (strcmp(argv[1], "--version") == 0) {
@@ -142,7 +147,7 @@ static int dispatch(int argc, char **argv, report *r)
         return help(0, NULL, r);
     if (strcmp(argv[1], "help") == 0)
         return help(argc - 2, argv + 2, r);
-    const command *c = find_command(argv[1], r);
+    const command *c = find_command(argv[1], "command", r);
     return c ? run_command(c, argc - 2, argv + 2, r) : EXIT_USAGE;
 }
 
