@@ -217,15 +217,21 @@ static void test_encoded_normals(void **state)
     static float encoded[3][PIXELS];
     const io_passes_request request = default_request();
     io_frame frame;
+    /* The background is black; grey, which is 0 encoded; 127 of 255, grey in 8 bits;
+     * white. */
+    static const float BACKGROUNDS[] = {0.0f, 0.5f, 127.0f / 255.0f, 1.0f};
     make_spheres();
-    for (int c = 0; c < 3; c++)
-        for (int i = 0; i < PIXELS; i++)
-            encoded[c][i] = depth[i] < 1e9f ? 0.5f * world[c][i] + 0.5f : 0.0f;
-    load(write_frame(encoded), &request, &frame);
-    assert_true(frame.has_normals);
-    assert_non_null(strstr(support_lines.text, "decoded"));
-    expect_view_normals(&frame);
-    io_frame_free(&frame);
+    for (int k = 0; k < 4; k++) {
+        for (int c = 0; c < 3; c++)
+            for (int i = 0; i < PIXELS; i++)
+                encoded[c][i] =
+                    depth[i] < 1e9f ? 0.5f * world[c][i] + 0.5f : BACKGROUNDS[k];
+        load(write_frame(encoded), &request, &frame);
+        assert_true(frame.has_normals);
+        assert_non_null(strstr(support_lines.text, "decoded"));
+        expect_view_normals(&frame);
+        io_frame_free(&frame);
+    }
 }
 
 static void test_senseless_normals(void **state)

@@ -8,12 +8,26 @@
 #include "normals.h"
 #include "pairs.h"
 
-/* Whether nearly all normals look like n / 2 + 1/2. A scene whose unit normals are all in
- * the positive octant does not: their length is 1 already. */
+/* n of n / 2 + 1/2. Grey stands for no normal: it is what 0 becomes, up to a step of 8
+ * bits. */
+static void centre(const float n[3], float out[3])
+{
+    for (int c = 0; c < 3; c++)
+        out[c] = 2.0f * n[c] - 1.0f;
+}
+
+static bool is_grey(const float centred[3])
+{
+    return io__length(centred) < 0.02;
+}
+
+/* Whether the normals look like n / 2 + 1/2: nearly all of them, or many and none beyond
+ * 0 and 1, if the background has a colour. A scene whose unit normals are all in the
+ * positive octant does not: their length is 1 already. */
 static bool looks_encoded(const io_frame *frame)
 {
     const int32_t step = io__sampling_step(&frame->normals);
-    size_t seen = 0, encoded = 0;
+    size_t seen = 0, encoded = 0, within = 0;
     for (int32_t y = step / 2; y < frame->desc.height; y += step)
         for (int32_t x = step / 2; x < frame->desc.width; x += step) {
             float n[3];
@@ -21,15 +35,20 @@ static bool looks_encoded(const io_frame *frame)
             const double plain = io__length(n);
             if (!isfinite(plain) || plain < 1e-3)
                 continue;
-            const float centred[3] = {2.0f * n[0] - 1.0f, 2.0f * n[1] - 1.0f,
-                                      2.0f * n[2] - 1.0f};
+            float centred[3];
+            centre(n, centred);
+            if (is_grey(centred))
+                continue;
             const bool inside = fminf(n[0], fminf(n[1], n[2])) >= -1e-3f
                                 && fmaxf(n[0], fmaxf(n[1], n[2])) <= 1.001f;
             const double error = fabs(io__length(centred) - 1.0);
             seen++;
+            within += inside;
             encoded += inside && error < 0.05 && error < fabs(plain - 1.0);
         }
-    return seen >= 8 && (double)encoded > 0.9 * (double)seen;
+    return seen >= 8
+           && ((double)encoded > 0.9 * (double)seen
+               || (within == seen && (double)encoded > 0.3 * (double)seen));
 }
 
 static void decode(io_frame *frame)
@@ -39,10 +58,11 @@ static void decode(io_frame *frame)
             float n[3];
             io__load_normal(&frame->normals, x, y, n);
             const double length = io__length(n);
-            const bool nothing = !isfinite(length) || length < 1e-3;
+            float centred[3];
+            centre(n, centred);
+            const bool nothing = !isfinite(length) || length < 1e-3 || is_grey(centred);
             for (int32_t c = 0; c < 3; c++)
-                *crv_image_at(&frame->normals, x, y, c) =
-                    nothing ? 0.0f : 2.0f * n[c] - 1.0f;
+                *crv_image_at(&frame->normals, x, y, c) = nothing ? 0.0f : centred[c];
         }
 }
 
