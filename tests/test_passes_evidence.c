@@ -220,6 +220,32 @@ static void test_wrong_field_of_view(void **state)
     io_frame_free(&frame);
 }
 
+/* Depth that is upside down, as one of two programs writes it: a rotation that suits most
+ * of the floor is found, and the rest says that it is wrong. */
+static void test_depth_upside_down(void **state)
+{
+    (void)state;
+    const io_passes_request request = request_of(50);
+    io_frame frame;
+    make_usual(50);
+    set_normals(view, identity);
+    const char *path = write_frame(true, NULL);
+    load(path, &request, &frame);
+    assert_int_equal(support_lines.warnings, 0);
+    io_frame_free(&frame);
+    for (int y = 0; y < H / 2; y++)
+        for (int x = 0; x < W; x++) {
+            float *const upper = &planes[0][y * W + x],
+                         *const lower = &planes[0][(H - 1 - y) * W + x];
+            const float kept = *upper;
+            *upper = *lower;
+            *lower = kept;
+        }
+    load(write_frame(true, NULL), &request, &frame);
+    assert_int_equal(support_lines.warnings, 1);
+    io_frame_free(&frame);
+}
+
 static void test_negative_depth(void **state)
 {
     (void)state;
@@ -308,6 +334,7 @@ int main(void)
         cmocka_unit_test(test_identity_is_no_camera),
         cmocka_unit_test(test_cameras_of_parts),
         cmocka_unit_test(test_wrong_field_of_view),
+        cmocka_unit_test(test_depth_upside_down),
         cmocka_unit_test(test_negative_depth),
         cmocka_unit_test(test_halves_in_floats),
         cmocka_unit_test(test_noisy_depth),

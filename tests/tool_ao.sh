@@ -56,6 +56,16 @@ at_most "$(number mae)" 0.02 "reconstructed normals: mean error"
 good ao plain.exr -o chosen.exr
 grep -Eq '^radius: --radius [0-9.e-]+, 5 %' stderr.txt || fail "the chosen radius is not told"
 
+# A radius in metres and depth in another unit: next to nothing would be dark, or all is.
+good ao plain.exr -o suits.exr --radius 0.3
+! grep -q 'another unit' stderr.txt || fail "a radius that suits is doubted"
+good ao plain.exr -o small.exr --radius 0.0003
+grep -q 'warning: plain.exr: the radius 0.0003 is .* pixels wide on near surfaces' stderr.txt ||
+    fail "a radius below a pixel is not told"
+good ao plain.exr -o large.exr --radius 300
+grep -q 'warning: plain.exr: the radius 300 is .* times the height of the view' stderr.txt ||
+    fail "a radius beyond the view is not told"
+
 # Frames: two of a range, an empty one first, which decides no radius.
 pfm shot.0001.pfm 2 2 inf nan 0 -1
 pfm shot.0003.pfm 2 2 1 1 1 1

@@ -19,11 +19,19 @@ static bool is_taken(const io__court *c, const io__trial *better, const io__tria
            && first->format.encoding == CRV_DEPTH_PLANAR;
 }
 
-static const char *encoding_remedy(const io__court *c)
+/* How to say that the other trial is right. */
+static const char *remedy_of(const io__court *c, const io__trial *first,
+                             const io__trial *better)
 {
-    return c->request->remedies.encoding ? c->request->remedies.encoding
-                                         : "check the depth's encoding";
+    const io_passes_remedies *remedies = &c->request->remedies;
+    if (better->format.encoding == first->format.encoding)
+        return remedies->vfov ? remedies->vfov : "check the field of view";
+    return remedies->encoding ? remedies->encoding : "check the depth's encoding";
 }
+
+/* Share of the pairs. Frames whose passes belong together have 0.03 at most, however
+ * bumpy; a pass that is upside down has 0.1. */
+#define CONTRARY_SHARE 0.07
 
 static void tell_contradiction(const io__court *c, const io__trial *first,
                                const io__trial *better, bool found, bool taken)
@@ -31,23 +39,31 @@ static void tell_contradiction(const io__court *c, const io__trial *first,
     const double deviation = first->reading.deviation;
     if (found && !c->has_normals)
         io__warn(c->log, c->path, "walls and floors would come out flat if %s; %s",
-                 better->text, encoding_remedy(c));
+                 better->text, remedy_of(c, first, better));
     else if (taken)
         io__warn(c->log, c->path,
                  "it is read as if %s: then normals and depth agree to %.1f degrees, "
                  "otherwise to %.1f; %s",
-                 better->text, better->reading.deviation, deviation, encoding_remedy(c));
+                 better->text, better->reading.deviation, deviation,
+                 remedy_of(c, first, better));
     else if (found)
         io__warn(c->log, c->path,
                  "normals and depth disagree by %.1f degrees, but by %.1f if %s; %s",
-                 deviation, better->reading.deviation, better->text, encoding_remedy(c));
+                 deviation, better->reading.deviation, better->text,
+                 remedy_of(c, first, better));
     else if (c->has_normals && deviation > IO__SUSPICIOUS && deviation <= IO__WORST)
         io__warn(
             c->log, c->path,
             "normals and depth disagree by %.1f degrees in any encoding and field of "
             "view: bump maps do that, and depth under depth of field or motion blur, "
-            "which must be rendered without either; %s",
-            deviation, encoding_remedy(c));
+            "which must be rendered without either; so do normals of another frame",
+            deviation);
+    else if (c->has_normals && first->reading.contrary > CONTRARY_SHARE
+             && deviation <= IO__WORST)
+        io__warn(c->log, c->path,
+                 "normals and depth disagree by more than 20 degrees on %.0f %% of the "
+                 "surfaces: are they of the same frame, and neither upside down?",
+                 100.0 * first->reading.contrary);
 }
 
 static int look_further(const io__court *c, const io__camera_guess *cameras, int count,

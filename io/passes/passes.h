@@ -27,6 +27,7 @@ typedef struct io_passes_remedies {
     const char *normal_space; /* to say which space they are in */
     const char *normal_flip;  /* to flip an axis of theirs */
     const char *encoding;     /* to say what the numbers of depth mean */
+    const char *vfov;         /* to say which field of view it is */
     const char *camera;       /* to give the field of view, or an orthographic height */
 } io_passes_remedies;
 

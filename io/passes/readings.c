@@ -12,6 +12,7 @@ static const double degree = 3.14159265358979323846 / 180.0;
 enum {
     MAX_READINGS = 64,
     CLAMP_DEGREES = 30, /* pixels that are further off tell nothing more */
+    CONTRARY_DEGREES = 20,
     FITTED_PAIRS = 8000
 };
 
@@ -25,12 +26,15 @@ typedef struct reading_list {
     io__reading list[MAX_READINGS];
 } reading_list;
 
-/* The mean of the clamped angles, in degrees. By the chord, which is exact for small
- * angles, as a cosine is not. */
-static double deviation(const io__pair_list *pairs, const double m[9])
+/* Fills in the mean of the clamped angles, in degrees, and the share of those that are
+ * large. By the chord, which is exact for small angles, as a cosine is not. */
+static void measure(const io__pair_list *pairs, io__reading *r)
 {
     const double farthest = 2.0 * sin(0.5 * CLAMP_DEGREES * degree);
+    const double contrary = 2.0 * sin(0.5 * CONTRARY_DEGREES * degree);
+    const double *m = r->turn;
     double sum = 0.0;
+    size_t contraries = 0;
     for (size_t i = 0; i < pairs->count; i++) {
         const float *n = pairs->from[i];
         double square = 0.0;
@@ -42,8 +46,10 @@ static double deviation(const io__pair_list *pairs, const double m[9])
         }
         sum += square < farthest * farthest ? 2.0 * asin(0.5 * sqrt(square)) / degree
                                             : (double)CLAMP_DEGREES;
+        contraries += square > contrary * contrary;
     }
-    return sum / (double)pairs->count;
+    r->deviation = sum / (double)pairs->count;
+    r->contrary = (double)contraries / (double)pairs->count;
 }
 
 static void multiply(const double a[9], const double b[9], double out[9])
@@ -61,7 +67,7 @@ static void add(reading_list *all, const io__pair_list *pairs, int id, const cha
     *r = (io__reading){.id = id};
     snprintf(r->text, sizeof r->text, "%s", text);
     memcpy(r->turn, turn, sizeof r->turn);
-    r->deviation = deviation(pairs, turn);
+    measure(pairs, r);
 }
 
 static double best_of(const reading_list *all)

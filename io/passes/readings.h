@@ -21,6 +21,7 @@ typedef struct io__reading {
     char text[96];    /* "view space, y flipped" */
     double turn[9];   /* view = turn * given; orthogonal, a reflection perhaps */
     double deviation; /* degrees: mean over the pairs, each angle clamped at 30 */
+    double contrary;  /* share of the pairs that differ by more than 20 degrees */
     bool decided;     /* no other reading that differs is about as good */
 } io__reading;
 

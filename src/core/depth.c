@@ -248,12 +248,12 @@ static void doubt_depth(crv_gbuffer *g, const depth_job *job)
     if (c.outside > c.total / 100)
         crv__log(logger, CRV_LOG_WARNING,
                  "depth: %.1f %% of it is outside of what its encoding can hold; is the "
-                 "encoding in crv_depth_format right?",
+                 "encoding right?",
                  percent(c.outside, c.total));
     else if (c.background == c.total)
         crv__log(logger, CRV_LOG_WARNING,
-                 "depth: 100 %% of it is background, so that all is white; are encoding, "
-                 "near and far in crv_depth_format right?");
+                 "depth: 100 %% of it is background, so that all is white; are its "
+                 "encoding, near and far right?");
     else if (is_distance && c.beyond_one == 0 && c.at_ends > c.total / 100)
         crv__log(logger, CRV_LOG_WARNING,
                  "depth: none of it is above 1 and %.1f %% is exactly 0 or 1, as in a "

@@ -79,7 +79,8 @@ io_passes_request pass_request(const pass_settings *p)
                      .normal = "choose with --normal NAME, or --normal none",
                      .normal_space = "say --normal-space view if that is what they are",
                      .normal_flip = "add --normal-flip x, y or z",
-                     .encoding = "say so with --depth-encoding or --vfov",
+                     .encoding = "say so with --depth-encoding",
+                     .vfov = "say so with --vfov",
                      .camera = "give its vertical field of view with --vfov DEGREES, or "
                                "--hfov, or --lens and --sensor (or --ortho HEIGHT for "
                                "an orthographic one)"},

@@ -24,10 +24,11 @@ static uint32_t bits_of(float value)
     return bits;
 }
 
-/* The median of the finite values: positive floats are in the order of their bits, so
- * that it is found half the bits at a time by counting, many times as fast as by sorting.
- * False if memory is out; *median is 0 if there is no finite value. */
-static bool find_median(const float *values, size_t count, double *median)
+/* The finite value below which this share of them lies, 0.5 for the median: positive
+ * floats are in the order of their bits, so that it is found half the bits at a time by
+ * counting, many times as fast as by sorting. False if memory is out; *out is 0 if there
+ * is no finite value. */
+static bool find_quantile(const float *values, size_t count, double share, double *out)
 {
     size_t *bins = calloc(BINS, sizeof *bins), rank = 0;
     if (!bins)
@@ -37,9 +38,9 @@ static bool find_median(const float *values, size_t count, double *median)
             bins[bits_of(values[i]) >> HALF_BITS]++;
             rank++;
         }
-    *median = 0.0;
+    *out = 0.0;
     if (rank > 0) {
-        rank /= 2;
+        rank = (size_t)((double)rank * share);
         uint32_t bits = bin_of_rank(bins, &rank) << HALF_BITS;
         memset(bins, 0, BINS * sizeof *bins);
         for (size_t i = 0; i < count; i++)
@@ -48,21 +49,21 @@ static bool find_median(const float *values, size_t count, double *median)
         bits |= bin_of_rank(bins, &rank);
         float value;
         memcpy(&value, &bits, sizeof value);
-        *median = (double)value;
+        *out = (double)value;
     }
     free(bins);
     return true;
 }
 
-/* The median of the finite depths, 0 if there is none. */
-static int median_depth(estimator *e, double *out, report *r)
+/* The finite depth that this share of them is nearer than; 0 if there is none. */
+static int depth_of_share(estimator *e, double share, double *out, report *r)
 {
     float *depth = NULL;
     const int result = estimate_depth(e, &depth, r);
     if (result != EXIT_DONE)
         return result;
     const bool done =
-        find_median(depth, (size_t)e->desc.width * (size_t)e->desc.height, out);
+        find_quantile(depth, (size_t)e->desc.width * (size_t)e->desc.height, share, out);
     free(depth);
     return done ? EXIT_DONE : report_no_memory(r);
 }
@@ -73,18 +74,54 @@ static double two_digits(double value)
     return round(value / unit) * unit;
 }
 
+/* The height in scene units that the picture shows at this depth. */
+static double height_at(const io_frame *frame, double depth)
+{
+    const double height = frame->image.display_height / (double)frame->camera.fy_px;
+    return frame->camera.projection == CRV_PERSPECTIVE ? height * depth : height;
+}
+
 int radius_suggest(estimator *e, const io_frame *frame, float *out, report *r)
 {
     double median = 0.0;
-    const int result = median_depth(e, &median, r);
-    double height = frame->image.display_height / (double)frame->camera.fy_px;
+    const int result = depth_of_share(e, 0.5, &median, r);
     const crv_option *option = crv_option_find("radius");
     *out = 0.0f;
     if (result != EXIT_DONE || median <= 0.0)
         return result;
-    if (frame->camera.projection == CRV_PERSPECTIVE)
-        height *= median;
     /* Within what the option takes, however odd the depth. */
-    *out = (float)fmin(fmax(two_digits(0.05 * height), option->min), option->max);
+    *out = (float)fmin(fmax(two_digits(0.05 * height_at(frame, median)), option->min),
+                       option->max);
+    return EXIT_DONE;
+}
+
+int radius_check(estimator *e, const io_frame *frame, float radius, const char *input,
+                 report *r)
+{
+    const double too_many_heights = 10.0;
+    double near = 0.0, median = 0.0;
+    float usual = 0.0f;
+    int result = depth_of_share(e, 0.05, &near, r);
+    if (result == EXIT_DONE)
+        result = depth_of_share(e, 0.5, &median, r);
+    if (result == EXIT_DONE)
+        result = radius_suggest(e, frame, &usual, r);
+    if (result != EXIT_DONE || near <= 0.0)
+        return result;
+    const double near_px =
+        (double)radius / height_at(frame, near) * frame->image.display_height;
+    const double heights = (double)radius / height_at(frame, median);
+    if (near_px < 1.0)
+        report_warning(r,
+                       "%s: the radius %g is %.2g pixels wide on near surfaces, too "
+                       "little to darken any; is depth in another unit? Without "
+                       "--radius it would be %g",
+                       input, (double)radius, near_px, (double)usual);
+    else if (heights > too_many_heights)
+        report_warning(r,
+                       "%s: the radius %g is %.2g times the height of the view at the "
+                       "median depth; is depth in another unit? Without --radius it "
+                       "would be %g",
+                       input, (double)radius, heights, (double)usual);
     return EXIT_DONE;
 }

@@ -11,4 +11,10 @@
  * is empty. e->gbuffer must hold the frame. Returns an exit code. */
 int radius_suggest(estimator *e, const io_frame *frame, float *out, report *r);
 
+/* Warns of a given radius with which next to nothing can be darkened, or that is many
+ * times as large as the view, as in scenes of another unit. Same needs. Returns an exit
+ * code. */
+int radius_check(estimator *e, const io_frame *frame, float radius, const char *input,
+                 report *r);
+
 #endif

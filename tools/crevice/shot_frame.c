@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "common/output.h"
+#include "common/radius.h"
 #include "made.h"
 #include "masks.h"
 #include "results.h"
@@ -37,6 +38,7 @@ static int compute(shot *t, const frame_paths *paths, ao_result *result, int32_t
                    report *r)
 {
     const char *input = paths->input;
+    const bool is_first = !t->request.is_later;
     result->view = t->view;
     shot_name_channel(t, result->channel);
     shot_name_bent(t, result->bent_layer);
@@ -52,6 +54,8 @@ static int compute(shot *t, const frame_paths *paths, ao_result *result, int32_t
         code = shot_upload(&t->estimator, &result->frame, r);
     if (code == EXIT_DONE && !t->has_radius)
         code = shot_fix_radius(t, &result->frame, r);
+    else if (code == EXIT_DONE && is_first)
+        code = radius_check(&t->estimator, &result->frame, t->options.radius, input, r);
     if (code == EXIT_DONE)
         code = estimate_plan(&t->estimator, &t->options, r);
     if (code == EXIT_DONE)
