@@ -99,7 +99,8 @@ static const char *const examples[] = {
 
 const command command_view = {
     .name = "view",
-    .summary = "open a window: two methods side by side, sliders, the error against the truth",
+    .summary =
+        "open a window: two methods side by side, sliders, the error against the truth",
     .synopsis = "INPUT [options]",
     .details =
         "Drag the line to compare the halves. Options given here are those that both "
