@@ -74,8 +74,9 @@ static float blocked_share(const crv__frame *f, const crv__slice_site *site,
                            const crv__slice *s, crv__slice_vectors *vectors)
 {
     const crv__params *p = f->params;
-    const crv__vec2 all =
-        crv__slice_vector(p, site->a, s->b, s->cos_tangent, s->sin_tangent);
+    crv__vec2 all = {0, 0};
+    if (vectors)
+        all = crv__slice_vector(p, site->a, s->b, s->cos_tangent, s->sin_tangent);
     horizon h = {.cosine = s->cos_tangent, .open = 1, .vector = all};
     for (int32_t i = 0; i < p->steps; i++) {
         crv__slice_texel texel;
