@@ -165,25 +165,34 @@ static bool find_sheet_point(const reference *r, const pixel_ray *ray, size_t pi
     return true;
 }
 
-static void estimate_pixel(const reference *r, int32_t x, int32_t y,
-                           const crv_falloff *falloffs, int32_t count,
-                           reference_value *out)
+/* The surface in a pixel inside the guard band; false: background. */
+static bool find_pixel(const reference *r, int32_t x, int32_t y, reference_point *out)
 {
     const crv_gbuffer_desc *d = &r->gbuffer->desc;
     int32_t column = x + d->guard_left, row = y + d->guard_top;
     size_t pixel = (size_t)row * (size_t)d->width + (size_t)column;
-    uint64_t index = (uint64_t)y * (uint64_t)r->width + (uint64_t)x;
     pixel_ray ray = ray_through_pixel(&r->gbuffer->camera, &r->axes, column, row);
+    return r->options.kind == REFERENCE_VISIBLE ? find_sheet_point(r, &ray, pixel, out)
+                                                : find_point(r, &ray, out);
+}
+
+/* The pixel's own random numbers. */
+static uint64_t stream_of(const reference *r, int32_t x, int32_t y)
+{
+    uint64_t index = (uint64_t)y * (uint64_t)r->width + (uint64_t)x;
+    return sampling_mix(index ^ sampling_mix(r->options.seed));
+}
+
+static void estimate_pixel(const reference *r, int32_t x, int32_t y,
+                           const crv_falloff *falloffs, int32_t count,
+                           reference_value *out)
+{
     reference_point point;
-    bool found = r->options.kind == REFERENCE_VISIBLE
-                     ? find_sheet_point(r, &ray, pixel, &point)
-                     : find_point(r, &ray, &point);
     for (int32_t k = 0; k < count; k++)
         out[k] = (reference_value){.accessibility = 1.0f};
-    if (!found)
+    if (!find_pixel(r, x, y, &point))
         return;
-    reference_trace(r, &point, sampling_mix(index ^ sampling_mix(r->options.seed)),
-                    falloffs, count, out);
+    reference_trace(r, &point, stream_of(r, x, y), falloffs, count, out);
     for (int32_t k = 0; k < count; k++)
         turn_to_view(&r->axes, out[k].bent_normal);
 }
@@ -193,6 +202,16 @@ reference_value reference_pixel(const reference *r, int32_t x, int32_t y)
     reference_value value;
     estimate_pixel(r, x, y, &r->options.falloff, 1, &value);
     return value;
+}
+
+void reference_irradiance(const reference *r, int32_t x, int32_t y,
+                          reference_radiance radiance, const void *user, float rgb[3])
+{
+    reference_point point;
+    vec3 sum = v3(0.0, 0.0, 0.0);
+    if (find_pixel(r, x, y, &point))
+        sum = reference_trace_light(r, &point, stream_of(r, x, y), radiance, user);
+    v3_store(sum, rgb);
 }
 
 int64_t reference_total(const reference *r)

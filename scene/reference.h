@@ -75,6 +75,16 @@ void reference_restart(reference *r, uint32_t seed);
 /* One pixel by its position inside the guard band, stored nowhere. Thread-safe. */
 reference_value reference_pixel(const reference *r, int32_t x, int32_t y);
 
+/* The radiance that comes from a unit direction of world space. */
+typedef void (*reference_radiance)(const void *user, const float direction[3],
+                                   float rgb[3]);
+
+/* The irradiance of one pixel by the same rays, all of them: pi times the mean of the
+ * radiance, each direction's as far as it is open. Background: 0. Needs cosine weighting.
+ * Thread-safe if `radiance` is. */
+void reference_irradiance(const reference *r, int32_t x, int32_t y,
+                          reference_radiance radiance, const void *user, float rgb[3]);
+
 /* The pixels inside the guard band, row by row, and how many of them are done. */
 int64_t reference_total(const reference *r);
 int64_t reference_done(const reference *r);

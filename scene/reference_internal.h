@@ -38,6 +38,11 @@ typedef struct reference_point {
 void reference_trace(const reference *r, const reference_point *point, uint64_t stream,
                      const crv_falloff *falloffs, int32_t count, reference_value *out);
 
+/* The same of pi times the mean of openness times radiance. */
+vec3 reference_trace_light(const reference *r, const reference_point *point,
+                           uint64_t stream, reference_radiance radiance,
+                           const void *user);
+
 /* FNV-1a, to be begun with REFERENCE_HASH. */
 #define REFERENCE_HASH 0xcbf29ce484222325u
 uint64_t reference_hash(uint64_t hash, const void *data, size_t size);

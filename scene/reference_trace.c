@@ -224,3 +224,38 @@ void reference_trace(const reference *r, const reference_point *point, uint64_t 
         until = traced > o->rays / 2 ? o->rays : 2 * traced;
     }
 }
+
+static vec3 add_light(const reference *r, const reference_point *point,
+                      const hemisphere_ray *ray, reference_radiance radiance,
+                      const void *user, vec3 sum)
+{
+    const falloff_list falloff = {&r->options.falloff, 1};
+    double open = 1.0;
+    float direction[3], rgb[3];
+    if (r->occluders)
+        trace_ray(r, point, ray, falloff, &open);
+    if (!(open > 0.0))
+        return sum;
+    v3_store(ray->direction, direction);
+    radiance(user, direction, rgb);
+    return v3_along(sum, v3_from(rgb), open);
+}
+
+vec3 reference_trace_light(const reference *r, const reference_point *point,
+                           uint64_t stream, reference_radiance radiance, const void *user)
+{
+    const reference_options *o = &r->options;
+    const direction_frame frame = frame_around(point->normal);
+    const int32_t copies = copy_count(o->rays);
+    vec3 sum = v3(0.0, 0.0, 0.0);
+    for (int32_t c = 0; c < copies; c++) {
+        const uint64_t seed = sampling_mix(stream + (uint64_t)c);
+        const int32_t count = rays_of_copy(o->rays, copies, c);
+        for (int32_t i = 0; i < count; i++) {
+            const hemisphere_ray ray =
+                ray_of_sample(o, &frame, sampling_owen_sobol((uint32_t)i, seed));
+            sum = add_light(r, point, &ray, radiance, user, sum);
+        }
+    }
+    return v3_scale(sum, SCENE_PI / o->rays);
+}

@@ -247,6 +247,9 @@ typedef struct scene_occlusion {
      * scene_sky_open_irradiance(). data NULL: the normals, with the irradiance of the
      * whole sky times accessibility. */
     crv_const_image bent_normal;
+    /* Instead of both: the sky is seen as far as this reference's rays are open; of the
+     * same G-buffer, cosine weighting. NULL: none. */
+    const struct reference *traced;
 } scene_occlusion;
 
 /*

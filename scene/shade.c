@@ -3,11 +3,13 @@
  * Pictures: sky light that accessibility darkens, and one key light that it does not.
  */
 #include "raycast.h"
+#include "reference.h"
 #include "sky.h"
 
 typedef struct lighting {
     const scene *scene;
     const scene_gbuffer *gbuffer;
+    const reference *traced; /* or NULL */
     scene_axes axes;
     scene_lighting light;
     sky_table table;
@@ -64,6 +66,22 @@ static vec3 view_to_world(const lighting *l, vec3 v)
                     v.z);
 }
 
+/* user: a lighting. */
+static void traced_radiance(const void *user, const float direction[3], float rgb[3])
+{
+    const lighting *l = user;
+    v3_store(sky_lighting_radiance(&l->light, to_sky(l, v3_from(direction))), rgb);
+}
+
+static vec3 traced_irradiance(const lighting *l, int32_t x, int32_t y)
+{
+    const crv_gbuffer_desc *d = &l->gbuffer->desc;
+    float rgb[3];
+    reference_irradiance(l->traced, x - d->guard_left, y - d->guard_top, traced_radiance,
+                         l, rgb);
+    return v3_from(rgb);
+}
+
 static vec3 irradiance_through(const lighting *l, vec3 normal, const opening *open)
 {
     const vec3 bent = open->bent_normal;
@@ -85,7 +103,9 @@ static vec3 shade_pixel(const lighting *l, int32_t x, int32_t y, const opening *
         return sky_radiance(&l->light, to_sky(l, v3_normalise(ray.direction)));
     vec3 normal = view_to_world(l, v3_from(g->normals + 3 * pixel));
     vec3 point = v3_along(ray.origin, ray.direction, depth);
-    vec3 light = v3_scale(irradiance_through(l, normal, open), 1.0 / SCENE_PI);
+    vec3 light = v3_scale(l->traced ? traced_irradiance(l, x, y)
+                                    : irradiance_through(l, normal, open),
+                          1.0 / SCENE_PI);
     double facing = v3_dot(normal, l->to_key);
     if (l->has_key && facing > 0.0
         && !in_shadow(l, shadow_origin(l, point, normal, depth)))
@@ -173,7 +193,7 @@ int scene_shade(const scene *s, const scene_gbuffer *g, const scene_lighting *li
                 const crv_logger *log)
 {
     const scene_occlusion given = occlusion ? *occlusion : (scene_occlusion){0};
-    lighting l = {.scene = s, .gbuffer = g};
+    lighting l = {.scene = s, .gbuffer = g, .traced = given.traced};
     if (!rgb->data || rgb->channels != 3 || !covers(rgb->width, rgb->height, &g->desc)
         || !fits(&given.accessibility, &g->desc, true)
         || !fits(&given.bent_normal, &g->desc, false)

@@ -159,6 +159,15 @@ vec3 sky_radiance(const scene_lighting *l, vec3 direction)
     }
 }
 
+/* The painted sky's irradiance is pi times the mix at half the cosine; band 1 of radiance
+ * counts 2/3 in it. */
+vec3 sky_lighting_radiance(const scene_lighting *l, vec3 direction)
+{
+    if (l->sky == SCENE_SKY_PAINTED)
+        return mix(ground_light, sky_light, 0.5 + 0.75 * direction.y);
+    return sky_radiance(l, direction);
+}
+
 void scene_sky_irradiance(const scene_lighting *lighting, const float normal[3],
                           float rgb[3])
 {

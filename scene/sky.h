@@ -42,4 +42,7 @@ vec3 sky_open_irradiance(const scene_lighting *l, const sky_table *table,
                          vec3 bent_normal, vec3 accessibility);
 vec3 sky_radiance(const scene_lighting *l, vec3 direction);
 
+/* The radiance that lights: of the painted sky, not that of its backdrop. */
+vec3 sky_lighting_radiance(const scene_lighting *l, vec3 direction);
+
 #endif

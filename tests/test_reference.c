@@ -462,18 +462,25 @@ static double angle_deg(const double a[3], const double b[3])
     return acos(fmin(dot(a, b) / sqrt(dot(a, a) * dot(b, b)), 1.0)) * 180.0 / PI;
 }
 
+/* The mean open direction of a column, view space. Both walls are at 45 degrees to the
+ * picture, and meet far from the viewer. */
+static void mean_of_column(const reference_options *o, int32_t x, double mean[3])
+{
+    const double left = x < WIDTH / 2 ? 1.0 : -1.0, half = sqrt(0.5);
+    const double normal[3] = {left * half, 0.0, half}, edge[3] = {left * half, 0, -half};
+    double along_normal, to_edge;
+    bent_in_groove(o, distance_of(x), &along_normal, &to_edge);
+    for (int k = 0; k < 3; k++)
+        mean[k] = along_normal * normal[k] + to_edge * edge[k];
+}
+
 /* The bent normals of a column against the closed form: the angle of their mean, and the
  * largest of them. */
 static void measure_bent(const reference *r, const reference_options *o, int32_t x,
                          double *of_mean, double *largest)
 {
-    double mean[3] = {0.0, 0.0, 0.0}, expected[3], along_normal, to_edge;
-    const double left = x < WIDTH / 2 ? 1.0 : -1.0, half = sqrt(0.5);
-    /* Both walls are at 45 degrees to the picture, and meet far from the viewer. */
-    const double normal[3] = {left * half, 0.0, half}, edge[3] = {left * half, 0, -half};
-    bent_in_groove(o, distance_of(x), &along_normal, &to_edge);
-    for (int k = 0; k < 3; k++)
-        expected[k] = along_normal * normal[k] + to_edge * edge[k];
+    double mean[3] = {0.0, 0.0, 0.0}, expected[3];
+    mean_of_column(o, x, expected);
     *largest = 0.0;
     for (int32_t y = 0; y < HEIGHT; y++) {
         const reference_value value = reference_pixel(r, x, y);
@@ -511,6 +518,46 @@ static void test_bent_normals(void **state)
         assert_true(worst < 1.6);
         reference_free(r);
     }
+    close_groove(&v);
+}
+
+/* Skies of which the closed forms are known: an even one, and two that are brighter on
+ * one side. */
+static void linear_radiance(const void *user, const float direction[3], float rgb[3])
+{
+    (void)user;
+    rgb[0] = 1.0f;
+    rgb[1] = 2.0f + direction[0];
+    rgb[2] = 2.0f + direction[2];
+}
+
+static void test_irradiance(void **state)
+{
+    groove v = open_groove();
+    const reference_options o =
+        options_of(CRV_WEIGHTING_COSINE, CRV_FALLOFF_NONE, 1.0, 1024);
+    reference *r = make(v.s, &v.g, &o);
+    (void)state;
+    for (size_t i = 0; i < COLUMNS; i++) {
+        const int32_t x = columns[i];
+        const double A = 1.0 - cosine_none(distance_of(x));
+        double mean[3], world[3], sum[3] = {0.0, 0.0, 0.0};
+        mean_of_column(&o, x, mean);
+        to_world(&v.g, (float[]){(float)mean[0], (float)mean[1], (float)mean[2]}, world);
+        for (int32_t y = 0; y < HEIGHT; y++) {
+            float rgb[3];
+            reference_irradiance(r, x, y, linear_radiance, NULL, rgb);
+            const double open = (double)reference_pixel(r, x, y).accessibility;
+            assert_true(fabs((double)rgb[0] - PI * open) < 1e-5); /* the same rays */
+            for (int c = 0; c < 3; c++)
+                sum[c] += (double)rgb[c] / HEIGHT;
+        }
+        /* A column's A and mean are known to 0.0006 and 0.0004. */
+        assert_true(fabs(sum[0] - PI * A) < 0.006);
+        assert_true(fabs(sum[1] - PI * (2.0 * A + world[0])) < 0.015);
+        assert_true(fabs(sum[2] - PI * (2.0 * A + world[2])) < 0.015);
+    }
+    reference_free(r);
     close_groove(&v);
 }
 
@@ -583,6 +630,7 @@ int main(void)
                                        cmocka_unit_test(test_empty),
                                        cmocka_unit_test(test_adaptive),
                                        cmocka_unit_test(test_bent_normals),
+                                       cmocka_unit_test(test_irradiance),
                                        cmocka_unit_test(test_all_falloffs),
                                        cmocka_unit_test(test_all_falloffs_stop_together)};
     int result = cmocka_run_group_tests(tests, NULL, NULL);

@@ -140,3 +140,25 @@ bad 2 '--albedo: "2" is none' render builtin:corner --shade lit --albedo 2 -o ou
 bad 2 '--albedo: "blue" is none' render builtin:corner --shade lit --albedo blue -o out.exr
 bad 2 '--albedo: lights no picture' render builtin:corner --albedo 1 -o out.exr
 bad 2 '--albedo: is for ambient' render builtin:corner --shade lit-no-ao --albedo 1 -o out.exr
+
+# Sky light by rays: the floor is open, by the corner it is what occlusion says, nearly.
+# shellcheck disable=SC2086
+good render $floor --sky gradient --key-light none -o open.exr
+# shellcheck disable=SC2086
+good render ${floor%lit-no-ao*}lit ${floor#*lit-no-ao} --sky gradient --key-light none \
+    --radius 1 --sky-rays 1024 -o rays.exr
+good compare --json open.exr rays.exr --channel G
+at_most "$(number rmse)" "$(awk -v x="$(number mean_a)" 'BEGIN { print 0.01 * x }')" \
+    "an open floor by rays"
+# shellcheck disable=SC2086
+good render $scene --sky gradient --key-light none -o ao.exr --lit t.exr --unlit u.exr \
+    --sky-rays 256
+cmp -s u.exr s2.exr || fail "--sky-rays changes the picture without occlusion"
+good compare --json t.exr s2.exr --channel R
+unlit=$(number rmse)
+at_least "$unlit" 0.001 "rays that are blocked"
+good compare --json t.exr s1.exr --channel R
+at_most "$(number rmse)" "$(awk -v x="$unlit" 'BEGIN { print x / 2 }')" "rays and occlusion"
+bad 2 '--sky-rays: is for the lit' render builtin:corner --sky-rays 8 -o out.exr
+bad 2 '--sky-rays: traces no light' render builtin:corner --shade lit --sky-rays 8 \
+    --albedo 1 -o out.exr

@@ -8,6 +8,7 @@
 #include "common/estimate.h"
 #include "common/output.h"
 #include "common/progress.h"
+#include "reference.h"
 #include "render.h"
 
 /* In the order of SHADE_AO ... */
@@ -130,16 +131,22 @@ static void check_open(const render_settings *s, const scene_gbuffer *g,
                        s->view.model, radius);
 }
 
+static float radius_of(const render_settings *s, const scene *model,
+                       const scene_gbuffer *g)
+{
+    return s->view.common.radius_given ? s->view.common.options.radius
+                                       : scene_suggest_radius(model, &g->view);
+}
+
 static int estimate(const render_settings *s, const scene *model, const scene_gbuffer *g,
                     const io_image *map, io_image *ao, report *r)
 {
     crv_options options = s->view.common.options;
     estimator e;
-    if (!s->view.common.radius_given) {
-        options.radius = scene_suggest_radius(model, &g->view);
+    options.radius = radius_of(s, model, g);
+    if (!s->view.common.radius_given)
         report_info(r, "radius: --radius %g, chosen to suit the view",
                     (double)options.radius);
-    }
     int result = estimate_open(&e, &s->view.common, r);
     if (result == EXIT_DONE) {
         estimate_fit(&e, &g->desc);
@@ -236,14 +243,36 @@ static int occlude(const stage *lit, const io_image *ao, io_image *bounced,
     return result;
 }
 
+/* The rays of --sky-rays; NULL without it. Freed by reference_free(). */
+static int trace_sky(const render_settings *s, const stage *lit, reference **out,
+                     report *r)
+{
+    const reference_options o = {.weighting = CRV_WEIGHTING_COSINE,
+                                 .falloff = CRV_FALLOFF_NONE,
+                                 .u = 1.0f, /* of another falloff, but must be valid */
+                                 .radius = radius_of(s, lit->model, lit->buffers),
+                                 .rays = s->sky_rays.value,
+                                 .normals = s->view.normals_from.value == 0
+                                                ? SCENE_NORMALS_INTERPOLATED
+                                                : SCENE_NORMALS_FACE};
+    if (s->sky_rays.value == 0)
+        return EXIT_DONE;
+    return reference_create(lit->model, lit->buffers, &o, out, &r->logger) == 0
+               ? EXIT_DONE
+               : EXIT_FAILED;
+}
+
 /* ao NULL: without ambient occlusion. */
 static int write_lit(const render_settings *s, const char *path, const stage *lit,
                      const io_image *ao, report *r)
 {
     static const char *const names[] = {"R", "G", "B"};
     io_image image = {0}, bounced = {0};
-    scene_occlusion occlusion;
+    scene_occlusion occlusion = {0};
+    reference *traced = NULL;
     int result = ao ? occlude(lit, ao, &bounced, &occlusion, r) : EXIT_DONE;
+    if (result == EXIT_DONE && ao)
+        result = trace_sky(s, lit, &traced, r);
     if (result == EXIT_DONE
         && io_image_init(&image, s->view.size.width, s->view.size.height, names, 3,
                          &r->logger)
@@ -255,6 +284,7 @@ static int write_lit(const render_settings *s, const char *path, const stage *li
         scene_lighting light = lit->light->scene;
         light.watch = progress_rows;
         light.user = &p;
+        occlusion.traced = traced;
         if (scene_shade(lit->model, lit->buffers, &light, ao ? &occlusion : NULL, &rgb,
                         s->view.common.threads.value, &r->logger)
             != 0)
@@ -263,6 +293,7 @@ static int write_lit(const render_settings *s, const char *path, const stage *li
     }
     if (result == EXIT_DONE)
         result = write_lit_image(s, path, &image, r);
+    reference_free(traced);
     io_image_free(&image);
     io_image_free(&bounced);
     return result;

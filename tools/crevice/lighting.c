@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "reference.h"
 #include "render.h"
 #include "common/multi_bounce.h"
 #include "common/nearest.h"
@@ -35,6 +36,13 @@ static const arg lighting_rows[] = {
      ARG_INTO(ARG_TEXT, render_settings, albedo),
      .help = "accessibility with the light that surfaces pass on to each other: their "
              "albedo RHO or R,G,B, 0 to 1, or mesh for that of each surface"},
+    {.name = "--sky-rays",
+     .value = "N",
+     ARG_RANGE(0, REFERENCE_MAX_RAYS),
+     .initial = "0",
+     ARG_INTO(ARG_INT, render_settings, sky_rays),
+     .help = "sky light by N rays a pixel, as far as the radius, instead of ambient "
+             "occlusion: what the lit picture should be; 256 to compare with. 0: none"},
 };
 const arg_table lighting_table = ARG_TABLE("Light of the lit pictures", lighting_rows);
 
@@ -190,6 +198,16 @@ int lighting_check(const render_settings *s, report *r)
     if (s->albedo && s->shade.value != SHADE_LIT && !s->lit) {
         report_error(r, "--albedo: is for ambient occlusion; add --lit FILE or --shade "
                         "lit");
+        return EXIT_USAGE;
+    }
+    if (s->sky_rays.value > 0 && s->shade.value != SHADE_LIT && !s->lit) {
+        report_error(r, "--sky-rays: is for the lit picture; add --lit FILE or --shade "
+                        "lit");
+        return EXIT_USAGE;
+    }
+    if (s->sky_rays.value > 0 && s->albedo) {
+        report_error(r, "--sky-rays: traces no light between surfaces; leave out "
+                        "--albedo");
         return EXIT_USAGE;
     }
     if (s->zenith.given && !(fabs(zenith[0]) + fabs(zenith[1]) + fabs(zenith[2]) > 0.0)) {

@@ -21,6 +21,7 @@ typedef struct render_settings {
     arg_number height_scale;
     arg_int height_wrap;
     const char *sky, *key_light, *albedo;
+    arg_int sky_rays;
     arg_vector zenith;
 } render_settings;
 
