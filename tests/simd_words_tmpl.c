@@ -193,7 +193,7 @@ static void check_rounding(simd_random *r)
     floats a, b, c;
     const vf va = any_vector(r, &a), vb = any_vector(r, &b), vc = any_vector(r, &c);
     const floats floors = taken(vf_floor(va)), roots = taken(vf_sqrt(vf_abs(va)));
-    const ints integers = taken_ints(vi_floor(va));
+    const ints integers = taken_ints(vi_floor(va)), ceilings = taken_ints(vi_ceil(va));
     const floats sums = taken(vf_fma(va, vb, vc));
     for (int i = 0; i < N; i++) {
         const float x = a.lane[i];
@@ -201,10 +201,13 @@ static void check_rounding(simd_random *r)
         expect_float("vf_sqrt", i, sqrtf(fabsf(x)), roots.lane[i]);
         if (fabsf(x) < 2147483648.0f) {
             expect_int("vi_floor", i, (int64_t)floorf(x), integers.lane[i]);
+            expect_int("vi_ceil", i, (int64_t)ceilf(x), ceilings.lane[i]);
             expect_int("vi_trunc", i, (int64_t)x, taken_ints(vi_trunc(va)).lane[i]);
             expect_int("vi_round", i, lrintf(x), taken_ints(vi_round(va)).lane[i]);
         } else if (integers.lane[i] >= 0 && integers.lane[i] != INT32_MAX) {
             fault("vi_floor of what does not fit", i, -1, integers.lane[i]);
+        } else if (ceilings.lane[i] >= 0 && ceilings.lane[i] != INT32_MAX) {
+            fault("vi_ceil of what does not fit", i, -1, ceilings.lane[i]);
         }
         expect_float("vf_of", i, (float)integers.lane[i],
                      taken(vf_of(vi_floor(va))).lane[i]);

@@ -262,7 +262,8 @@ static float jittered_share(const crv__params *p, const crv__noise_texel *noise,
 static void fill_cell(const crv__params *p, int32_t i, float share, float length_px,
                       crv__sample *sample)
 {
-    sample->near = fminf(1, fmaxf(0.5f / length_px, spaced(p, (float)i)) / share);
+    const float near = fminf(1, fmaxf(0.5f / length_px, spaced(p, (float)i)) / share);
+    sample->front = 1 - 0.25f * (1 - near);
     sample->far = fmaxf(1, spaced(p, (float)(i + 1)) / share);
 }
 

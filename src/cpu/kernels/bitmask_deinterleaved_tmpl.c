@@ -1,51 +1,56 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * methods/bitmask.c in the deinterleaved structure, for one layer. Places of sectors are
- * kept negative, -(32 u - zeta), so that rounding down rounds up. What is as far as the
+ * methods/bitmask.c in the deinterleaved structure, for one layer. What is as far as the
  * background is so far below everything that the next surface begins a run.
  */
 #include "cpu/kernels/sectors.h"
 #include "cpu/kernels/slice_groups.h"
 
-/* What the code is specialised by. */
+/* What the code is specialised by. falloff: NONE, every sector weighs the same; LINEAR;
+ * or any other, which is then looked up. */
 typedef struct shape {
-    int32_t rule;
-    bool hard; /* no falloff: every sector weighs the same */
+    int32_t rule, falloff;
     bool orthographic, border;
 } shape;
 
-/* A slice so far: see the scalar code. */
+/* A slice so far: see the scalar code. Linear: `occlusion` is what the sectors' distances
+ * take off, in units of the radius' inverse. */
 typedef struct sectors {
-    vi mask, count; /* count: of the mask's bits */
-    vf occlusion, start, last_x, last_z;
+    vi mask;
+    vf occlusion, start;
+    vf last;            /* z - 16 x of the sample before */
     vf blocked[GROUPS]; /* with bent normals, if sectors weigh differently */
 } sectors;
 
-/* What the place of a point is computed from. */
+/* What the place of a point is computed from. F being a (1 - cos^2) plus a multiple of
+ * crv__lanes_segment(), it is whole - cos (a cos + Q(sin)), and so it is, with other
+ * coefficients, for uniform weighting. */
 typedef struct scale {
-    vf a, b; /* -16 a / Ft and -16 b / Ft; uniform: b alone, -32 / Ft */
-    vf offset;
-    vf flat; /* see flatness() */
-    int32_t uniform;
+    vf whole, a, Q[4];
 } scale;
 
-CRV__INLINE vi first_from(const crv__group_slice *s, const scale *c, vf x, vf z)
+CRV__INLINE scale scale_of(const crv__slice_view *w, const crv__group_slice *s,
+                           float offset)
 {
-    const vf one = vf_set(1), inverse = vf_rsqrt_fair(vf_fma(x, x, z * z));
-    const vf cosine = z * inverse, sine = x * inverse;
-    vf place;
-    if (c->uniform) {
-        place = vf_fma(c->b, one - cosine, c->offset);
-    } else {
-        vf Q = vf_fma(sine, vf_set(-0.20501906f), vf_set(0.60547927f));
-        Q = vf_fma(sine, Q, vf_set(0.02568289f));
-        Q = vf_fma(sine, Q, vf_set(1.57020562f));
-        const vf angle = vf_fma(-cosine, Q, vf_set(1.57079633f));
-        place = vf_fma(c->a * sine, sine, vf_fma(c->b, angle, c->offset));
-    }
-    const vf least = vf_set(-SECTORS);
-    place = vf_select(vf_lt(s->cos_tangent, cosine), place, least);
-    return vi_sub(vi_set(0), vi_floor(vf_min(vf_max(place, least), vf_zero())));
+    const vf zero = vf_zero(), unit = vf_set(SECTORS) * s->inverse;
+    const vf half = vf_set(0.5f * SECTORS) * s->inverse, zeta = vf_set(offset);
+    if (w->params->weighting == CRV_WEIGHTING_UNIFORM)
+        return (scale){.whole = unit - zeta, .a = zero, .Q = {unit, zero, zero, zero}};
+    const vf a = w->a * half, b = s->b * half;
+    return (scale){.whole = vf_fma(b, vf_set(1.57079633f), a - zeta),
+                   .a = a,
+                   .Q = {b * vf_set(1.57020562f), b * vf_set(0.02568289f),
+                         b * vf_set(0.60547927f), b * vf_set(-0.20501906f)}};
+}
+
+/* 32 u - zeta of the direction that these are the cosine and sine of, from 0 to 32. */
+CRV__INLINE vf place_of(const scale *c, vf cosine, vf sine)
+{
+    vf Q = vf_fma(sine, c->Q[3], c->Q[2]);
+    Q = vf_fma(sine, Q, c->Q[1]);
+    Q = vf_fma(sine, Q, c->Q[0]);
+    const vf place = vf_fma(-cosine, vf_fma(c->a, cosine, Q), c->whole);
+    return vf_min(vf_max(place, vf_zero()), vf_set(SECTORS));
 }
 
 CRV__INLINE vf thickness_of(const sectors *so_far, const crv__slice_view *w, shape c,
@@ -69,12 +74,12 @@ CRV__INLINE vf thickness_of(const sectors *so_far, const crv__slice_view *w, sha
  * tangent along V. It blocks no sector if that is less than Ft (1 - zeta)/32, for which
  * flat h^2 < r^2 suffices. Tangents by which delta may be obtuse get no such limit.
  */
-CRV__INLINE vf flatness(const crv__slice_view *w, const crv__group_slice *s, float offset,
-                        int32_t uniform)
+CRV__INLINE vf flatness(const crv__slice_view *w, const crv__group_slice *s, float offset)
 {
     const vf share = s->inverse * vf_set(1.2f * SECTORS / (1 - offset));
-    const vf limit = uniform ? s->sin_tangent * share * (s->sin_tangent * share)
-                             : s->sin_tangent * w->a * share * vf_set(0.5f);
+    const bool is_uniform = w->params->weighting == CRV_WEIGHTING_UNIFORM;
+    const vf limit = is_uniform ? s->sin_tangent * share * (s->sin_tangent * share)
+                                : s->sin_tangent * w->a * share * vf_set(0.5f);
     return vf_select(vf_lt(s->cos_tangent, vf_set(-0.9f)), vf_set(1e30f), limit);
 }
 
@@ -83,53 +88,6 @@ CRV__INLINE void add_groups(sectors *to, vf weight, vi bits)
     const vi counts = crv__group_counts(bits);
     for (int32_t g = 0; g < GROUPS; g++)
         to->blocked[g] = vf_fma(weight, crv__group_count(counts, g), to->blocked[g]);
-}
-
-CRV__INLINE void add_sample(sectors *to, const crv__slice_view *w,
-                            const crv__group_slice *s, const scale *places, shape c,
-                            const crv__sample *sample, vf x, vf z, vf width,
-                            bool with_vectors)
-{
-    const crv__params *p = w->params;
-    const vf zero = vf_zero();
-    const vm begins = vf_lt(vf_set(16) * (x - to->last_x), z - to->last_z);
-    to->start = vf_select(begins, x, to->start);
-    to->last_x = x;
-    to->last_z = z;
-    const vf part = vf_set(0.25f * (1 - sample->near)), front_x = vf_fma(-x, part, x);
-    const vf height = vf_fma(s->b_over_a, x, z);
-    const vf raised_z = vf_fma(-s->b_over_a, front_x, height);
-    const vf front_squared = vf_fma(front_x, front_x, raised_z * raised_z);
-    const vm rises = vm_and(vm_and(vf_lt(zero, x), vf_lt(zero, height)),
-                            vf_le(front_squared, places->flat * height * height));
-    if (!vm_any(rises))
-        return; /* most of flat surfaces */
-    const vf thickness = thickness_of(to, w, c, x, width);
-    const vf back_x = x * vf_set(sample->far);
-    const vf rest = vf_max(vf_fma(-front_x, front_x, w->radius2), vf_set(1e-30f));
-    const vf end = rest * vf_rsqrt_fair(rest);
-    const vf front_z = vf_min(raised_z, end);
-    const vf back_z = vf_max(z - thickness, zero - end);
-    const vm there = vm_and(rises, vf_lt(back_z, front_z));
-    const vi front = vi_from_bit(first_from(s, places, front_x, front_z));
-    const vi back = vi_from_bit(first_from(s, places, back_x, back_z));
-    const vi bits = vi_select(there, front & ~back, vi_set(0)), before = to->mask;
-    to->mask = before | bits;
-    if (c.hard)
-        return;
-    const vi so_far = vi_count_bits(to->mask);
-    const vf added = vf_of(so_far - to->count);
-    to->count = so_far;
-    const vf squared = vf_fma(x, x, z * z);
-    const vf r = vf_min(squared * vf_rsqrt_fair(squared), w->radius);
-    const vf count = vf_max(vf_of(vi_count_bits(bits)), vf_set(1));
-    const vf middle = vf_fma(vf_set(-0.7f) * (r - x), added * vf_rcp(count), r);
-    const vf q = vf_min(middle * w->inverse_radius, vf_set(CRV__BELOW_ONE));
-    const vm counts = vf_lt(zero, added);
-    const vf W = crv__lanes_falloff(p, q);
-    to->occlusion = to->occlusion + vf_where(counts, W * added);
-    if (with_vectors)
-        add_groups(to, vf_where(counts, W), bits & ~before);
 }
 
 /* The map's values at a sample. */
@@ -155,6 +113,101 @@ CRV__INLINE vf width_at(const crv__group_pixels *at, const crv__sample_place *pl
     return vf_select(off, border_width, width);
 }
 
+/* Weighs the bits that are new. bits: the body's; count: how many, or any number of none.
+ */
+CRV__INLINE void weigh(sectors *to, const crv__slice_view *w, shape c, vf x, vf z,
+                       vi bits, vf count, bool with_vectors)
+{
+    const vi new_bits = bits & ~to->mask;
+    const vm is_new = vm_not(vi_eq(new_bits, vi_set(0)));
+    const vf added = vf_of(vi_count_bits(new_bits));
+    const vf squared = vf_fma(x, x, z * z);
+    const vf r = vf_min(squared * vf_rsqrt_fair(squared), w->radius);
+    const vf middle = vf_fma(vf_set(-0.7f) * (r - x), added * vf_rcp_rough(count), r);
+    const bool is_linear = c.falloff == CRV_FALLOFF_LINEAR;
+    if (is_linear)
+        to->occlusion =
+            vf_select(is_new, vf_fma(middle, added, to->occlusion), to->occlusion);
+    if (is_linear && !with_vectors)
+        return;
+    const vf q = vf_min(middle * w->inverse_radius, vf_set(CRV__BELOW_ONE));
+    const vf W = vf_where(is_new, crv__lanes_falloff(w->params, q));
+    if (!is_linear)
+        to->occlusion = vf_fma(W, added, to->occlusion);
+    if (with_vectors)
+        add_groups(to, W, new_bits);
+}
+
+/* Adds the body whose front is seen at a sample's point. */
+CRV__INLINE void add_body(sectors *to, const crv__slice_view *w,
+                          const crv__group_slice *s, const scale *places, shape c,
+                          const crv__sample *sample, vf x, vf z, vf thickness,
+                          bool with_vectors)
+{
+    const vf zero = vf_zero();
+    const vf front_x = x * vf_set(sample->front), back_x = x * vf_set(sample->far);
+    const vf rest = vf_max(vf_fma(-front_x, front_x, w->radius2), vf_set(1e-30f));
+    const vf end = rest * vf_rsqrt_fair(rest);
+    const vf raised_z = vf_fma(s->b_over_a, x - front_x, z);
+    const vf front_z = vf_min(raised_z, end), back_z = vf_max(z - thickness, zero - end);
+    const vf front_inverse = vf_rsqrt_fair(vf_fma(front_x, front_x, front_z * front_z));
+    const vf back_inverse = vf_rsqrt_fair(vf_fma(back_x, back_x, back_z * back_z));
+    const vf front_cosine = front_z * front_inverse, back_cosine = back_z * back_inverse;
+    const vm there = vm_and(vm_and(vf_lt(zero, x), vf_lt(back_z, front_z)),
+                            vf_lt(s->cos_tangent, front_cosine));
+    const vf front = place_of(places, front_cosine, front_x * front_inverse),
+             back = place_of(places, back_cosine, back_x * back_inverse);
+    const vi first = vi_ceil(front),
+             last = vi_ceil(
+                 vf_select(vf_lt(s->cos_tangent, back_cosine), back, vf_set(SECTORS)));
+    const vi bits = vi_select(there, vi_from_bit(first) & ~vi_from_bit(last), vi_set(0));
+    if (c.falloff != CRV_FALLOFF_NONE)
+        weigh(to, w, c, x, z, bits, vf_of(last - first), with_vectors);
+    to->mask = to->mask | bits;
+}
+
+/* Samples of a slice some lanes of which see something above their tangent. They are
+ * collected before any is added: that takes long, and few branches. */
+enum { MOST_RISEN = 16 };
+
+typedef struct risen {
+    vf x[MOST_RISEN], z[MOST_RISEN], thickness[MOST_RISEN];
+    int32_t index[MOST_RISEN];
+} risen;
+
+/* Collects those of samples `first` to last - 1. Returns how many. */
+CRV__INLINE int32_t collect(risen *r, sectors *so_far, const crv__group_pixels *at,
+                            const crv__list *list, const crv__slice_view *w,
+                            const crv__group_slice *s, vf flat, shape c, int32_t first,
+                            int32_t last)
+{
+    int32_t count = 0;
+    for (int32_t i = first; i < last; i++) {
+        const crv__sample *sample = &list->samples[i];
+        const crv__sample_place *place = &list->places[i];
+        const vf d = crv__group_slice_depth(at, place, 0, c.border);
+        const vf width =
+            c.rule == CRV_THICKNESS_WIDTH ? width_at(at, place, c.border) : vf_zero();
+        vf x, z;
+        crv__group_slice_point(w, s, sample, d, c.orthographic, &x, &z);
+        const vf climb = vf_fma(vf_set(-16), x, z);
+        so_far->start = vf_select(vf_lt(so_far->last, climb), x, so_far->start);
+        so_far->last = climb;
+        const vf front_x = x * vf_set(sample->front);
+        const vf height = vf_fma(s->b_over_a, x, z);
+        const vf raised_z = vf_fma(-s->b_over_a, front_x, height);
+        const vf squared = vf_fma(front_x, front_x, raised_z * raised_z);
+        const vm rises = vm_and(vf_lt(vf_zero(), vf_min(x, height)),
+                                vf_le(squared, flat * height * height));
+        r->x[count] = x;
+        r->z[count] = z;
+        r->thickness[count] = thickness_of(so_far, w, c, x, width);
+        r->index[count] = i;
+        count += vm_any(rises) ? 1 : 0;
+    }
+    return count;
+}
+
 /* The blocked share of a slice. */
 CRV__INLINE vf blocked_share(const crv__group_pixels *at, const crv__list *list,
                              const crv__slice_view *w, const crv__group_slice *s, shape c,
@@ -164,57 +217,54 @@ CRV__INLINE vf blocked_share(const crv__group_pixels *at, const crv__list *list,
     const int32_t first = k * at->di->steps, last = first + list->counts[k];
     float offset = w->noise->sector_offset + 0.754878f * (float)k;
     offset -= (float)(int32_t)offset;
-    const int32_t uniform = w->params->weighting == CRV_WEIGHTING_UNIFORM;
-    const scale places = {.a = vf_set(-0.5f * SECTORS) * w->a * s->inverse,
-                          .b = uniform ? vf_set(-SECTORS) * s->inverse
-                                       : vf_set(-0.5f * SECTORS) * s->b * s->inverse,
-                          .offset = vf_set(offset),
-                          .flat = flatness(w, s, offset, uniform),
-                          .uniform = uniform};
-    sectors found = {.mask = vi_set(0),
-                     .count = vi_set(0),
-                     .occlusion = zero,
-                     .start = zero,
-                     .last_x = zero,
-                     .last_z = zero};
+    const scale places = scale_of(w, s, offset);
+    const vf flat = flatness(w, s, offset);
+    sectors found = {.mask = vi_set(0), .occlusion = zero, .start = zero, .last = zero};
     for (int32_t g = 0; vectors && g < GROUPS; g++)
         found.blocked[g] = zero;
-    for (int32_t i = first; i < last; i++) {
-        const crv__sample_place *place = &list->places[i];
-        const vf d = crv__group_slice_depth(at, place, 0, c.border);
-        const vf width =
-            c.rule == CRV_THICKNESS_WIDTH ? width_at(at, place, c.border) : zero;
-        vf x, z;
-        crv__group_slice_point(w, s, &list->samples[i], d, c.orthographic, &x, &z);
-        add_sample(&found, w, s, &places, c, &list->samples[i], x, z, width, vectors);
+    for (int32_t i = first; i < last; i += MOST_RISEN) {
+        const int32_t end = i + MOST_RISEN < last ? i + MOST_RISEN : last;
+        risen r;
+        const int32_t count = collect(&r, &found, at, list, w, s, flat, c, i, end);
+        for (int32_t n = 0; n < count; n++)
+            add_body(&found, w, s, &places, c, &list->samples[r.index[n]], r.x[n], r.z[n],
+                     r.thickness[n], vectors);
     }
-    if (vectors && c.hard)
+    if (vectors && c.falloff == CRV_FALLOFF_NONE)
         add_groups(&found, vf_set(1), found.mask);
     if (vectors)
         *vectors = crv__group_vectors(w->params, s->cos_tangent, s->sin_tangent, s->total,
                                       found.blocked);
-    const vf occlusion = c.hard ? vf_of(vi_count_bits(found.mask)) : found.occlusion;
+    vf occlusion = found.occlusion;
+    if (c.falloff == CRV_FALLOFF_NONE)
+        occlusion = vf_of(vi_count_bits(found.mask));
+    else if (c.falloff == CRV_FALLOFF_LINEAR)
+        occlusion =
+            vf_fma(-occlusion, w->inverse_radius, vf_of(vi_count_bits(found.mask)));
     return occlusion * vf_set(1.0f / SECTORS);
 }
 
 CRV__SLICES_SUMMED
 
-CRV__SLICE_SHAPE(hard, .rule = CRV_THICKNESS_WIDTH, .hard = true)
-CRV__SLICE_SHAPE(hard_border, .rule = CRV_THICKNESS_WIDTH, .hard = true, .border = true)
-CRV__SLICE_SHAPE(soft, .rule = CRV_THICKNESS_WIDTH)
-CRV__SLICE_SHAPE(soft_border, .rule = CRV_THICKNESS_WIDTH, .border = true)
-CRV__SLICE_SHAPE(soft_run, .rule = CRV_THICKNESS_RUN)
-CRV__SLICE_SHAPE(soft_run_border, .rule = CRV_THICKNESS_RUN, .border = true)
-CRV__SLICE_SHAPE(hard_run, .rule = CRV_THICKNESS_RUN, .hard = true)
-CRV__SLICE_SHAPE(hard_run_border, .rule = CRV_THICKNESS_RUN, .hard = true, .border = true)
+#define SHAPES(name, ...)                                                                \
+    CRV__SLICE_SHAPE(name, __VA_ARGS__)                                                  \
+    CRV__SLICE_SHAPE(name##_border, .border = true, __VA_ARGS__)
 
-CRV__SLICE_BENT_SHAPE(hard_bent, .rule = CRV_THICKNESS_WIDTH, .hard = true)
-CRV__SLICE_BENT_SHAPE(soft_bent, .rule = CRV_THICKNESS_WIDTH)
+SHAPES(hard, .rule = CRV_THICKNESS_WIDTH, .falloff = CRV_FALLOFF_NONE)
+SHAPES(linear, .rule = CRV_THICKNESS_WIDTH, .falloff = CRV_FALLOFF_LINEAR)
+SHAPES(hard_run, .rule = CRV_THICKNESS_RUN, .falloff = CRV_FALLOFF_NONE)
+SHAPES(linear_run, .rule = CRV_THICKNESS_RUN, .falloff = CRV_FALLOFF_LINEAR)
+
+CRV__SLICE_BENT_SHAPE(hard_bent, .rule = CRV_THICKNESS_WIDTH, .falloff = CRV_FALLOFF_NONE)
+CRV__SLICE_BENT_SHAPE(linear_bent, .rule = CRV_THICKNESS_WIDTH,
+                      .falloff = CRV_FALLOFF_LINEAR)
 
 CRV__INLINE shape general_shape(const crv__params *p)
 {
-    return (shape){
-        .rule = p->thickness_rule, .orthographic = p->orthographic, .border = true};
+    return (shape){.rule = p->thickness_rule,
+                   .falloff = p->falloff,
+                   .orthographic = p->orthographic,
+                   .border = true};
 }
 
 /* Everything else. */
@@ -232,27 +282,33 @@ CRV__NOINLINE vf general_bent(const crv__group_pixels *at, const crv__list *list
 CRV__INLINE vf accessibility(const crv__group_pixels *at, const crv__list *list)
 {
     const crv__params *p = at->frame->params;
-    const bool is_hard = p->falloff == CRV_FALLOFF_NONE;
+    const bool is_width = p->thickness_rule == CRV_THICKNESS_WIDTH,
+               is_run = p->thickness_rule == CRV_THICKNESS_RUN,
+               is_hard = p->falloff == CRV_FALLOFF_NONE,
+               is_linear = p->falloff == CRV_FALLOFF_LINEAR;
     if (p->orthographic)
         return general(at, list);
-    if (p->thickness_rule == CRV_THICKNESS_WIDTH && is_hard)
+    if (is_width && is_linear)
+        return at->at_border ? linear_border(at, list) : linear(at, list);
+    if (is_width && is_hard)
         return at->at_border ? hard_border(at, list) : hard(at, list);
-    if (p->thickness_rule == CRV_THICKNESS_WIDTH)
-        return at->at_border ? soft_border(at, list) : soft(at, list);
-    if (p->thickness_rule == CRV_THICKNESS_RUN && is_hard)
+    if (is_run && is_linear)
+        return at->at_border ? linear_run_border(at, list) : linear_run(at, list);
+    if (is_run && is_hard)
         return at->at_border ? hard_run_border(at, list) : hard_run(at, list);
-    if (p->thickness_rule == CRV_THICKNESS_RUN)
-        return at->at_border ? soft_run_border(at, list) : soft_run(at, list);
     return general(at, list);
 }
 
 CRV__INLINE vf estimate(const crv__group_pixels *at, const crv__list *list, crv__v3 *bent)
 {
     const crv__params *p = at->frame->params;
-    if (p->orthographic || p->thickness_rule != CRV_THICKNESS_WIDTH || at->at_border)
-        return general_bent(at, list, bent);
-    return p->falloff == CRV_FALLOFF_NONE ? hard_bent(at, list, bent)
-                                          : soft_bent(at, list, bent);
+    const bool is_common =
+        !p->orthographic && !at->at_border && p->thickness_rule == CRV_THICKNESS_WIDTH;
+    if (is_common && p->falloff == CRV_FALLOFF_LINEAR)
+        return linear_bent(at, list, bent);
+    if (is_common && p->falloff == CRV_FALLOFF_NONE)
+        return hard_bent(at, list, bent);
+    return general_bent(at, list, bent);
 }
 
 CRV__DEINTERLEAVED_BENT

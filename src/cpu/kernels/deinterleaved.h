@@ -47,7 +47,9 @@ typedef struct crv__sample {
             float cosine2, sine2; /* of twice the angle */
         };
         struct {
-            float near, far; /* jittered: ends of the sample's cell over its distance */
+            /* jittered: the body's front and the end of the sample's cell, over the
+             * sample's distance */
+            float front, far;
         };
     };
 } crv__sample;

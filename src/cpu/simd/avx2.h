@@ -118,10 +118,28 @@ CRV__INLINE vi vi_floor(vf a)
     return (vi)_mm256_cvttps_epi32(_mm256_floor_ps(a));
 }
 
+CRV__INLINE vi vi_ceil(vf a)
+{
+    return (vi)_mm256_cvttps_epi32(_mm256_ceil_ps(a));
+}
+
 CRV__INLINE vm vi_below(vi a, vi n)
 {
     const __m256i last = _mm256_sub_epi32((__m256i)n, _mm256_set1_epi32(1));
     return (vm)_mm256_cmpeq_epi32(_mm256_min_epu32((__m256i)a, last), (__m256i)a);
+}
+
+/* Of nibbles by a table, then bytes by the products that add neighbours. */
+CRV__INLINE vi vi_count_bits(vi a)
+{
+    const __m256i table = _mm256_broadcastsi128_si256(
+        _mm_setr_epi8(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4));
+    const __m256i low = _mm256_set1_epi8(0xf), one = _mm256_set1_epi8(1);
+    const __m256i above = _mm256_srli_epi32((__m256i)a, 4);
+    const __m256i bytes =
+        _mm256_add_epi8(_mm256_shuffle_epi8(table, _mm256_and_si256((__m256i)a, low)),
+                        _mm256_shuffle_epi8(table, _mm256_and_si256(above, low)));
+    return (vi)_mm256_madd_epi16(_mm256_maddubs_epi16(bytes, one), _mm256_set1_epi16(1));
 }
 
 CRV__INLINE vi vi_from_bit(vi n)

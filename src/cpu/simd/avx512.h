@@ -159,6 +159,11 @@ CRV__INLINE vi vi_floor(vf a)
     return (vi)_mm512_cvt_roundps_epi32(a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
 }
 
+CRV__INLINE vi vi_ceil(vf a)
+{
+    return (vi)_mm512_cvt_roundps_epi32(a, _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC);
+}
+
 CRV__INLINE vm vi_below(vi a, vi n)
 {
     return _mm512_cmplt_epu32_mask((__m512i)a, (__m512i)n);
@@ -204,6 +209,19 @@ CRV__INLINE void vf_join4(float *to, const vf in[4])
     vf_store(to + 16, _mm512_permutex2var_ps(even0, high, odd0));
     vf_store(to + 32, _mm512_permutex2var_ps(even1, low, odd1));
     vf_store(to + 48, _mm512_permutex2var_ps(even1, high, odd1));
+}
+
+/* Of nibbles by a table, then bytes by the products that add neighbours. */
+CRV__INLINE vi vi_count_bits(vi a)
+{
+    const __m512i table = _mm512_broadcast_i32x4(
+        _mm_setr_epi8(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4));
+    const __m512i low = _mm512_set1_epi8(0xf), one = _mm512_set1_epi8(1);
+    const __m512i above = _mm512_srli_epi32((__m512i)a, 4);
+    const __m512i bytes =
+        _mm512_add_epi8(_mm512_shuffle_epi8(table, _mm512_and_si512((__m512i)a, low)),
+                        _mm512_shuffle_epi8(table, _mm512_and_si512(above, low)));
+    return (vi)_mm512_madd_epi16(_mm512_maddubs_epi16(bytes, one), _mm512_set1_epi16(1));
 }
 
 CRV__INLINE vi vi_from_bit(vi n)

@@ -122,9 +122,19 @@ CRV__INLINE vi vi_floor(vf a)
     return (vi)vcvtmq_s32_f32(a) | ~vf_le(a, a);
 }
 
+CRV__INLINE vi vi_ceil(vf a)
+{
+    return (vi)vcvtpq_s32_f32(a) | ~vf_le(a, a);
+}
+
 CRV__INLINE vm vi_below(vi a, vi n)
 {
     return (vm)vcltq_u32((uint32x4_t)a, (uint32x4_t)n);
+}
+
+CRV__INLINE vi vi_count_bits(vi a)
+{
+    return (vi)vpaddlq_u16(vpaddlq_u8(vcntq_u8((uint8x16_t)a)));
 }
 
 CRV__INLINE vi vi_from_bit(vi n)

@@ -118,10 +118,27 @@ CRV__INLINE vi vi_floor(vf a)
     return (vi)_mm_cvttps_epi32(_mm_floor_ps(a));
 }
 
+CRV__INLINE vi vi_ceil(vf a)
+{
+    return (vi)_mm_cvttps_epi32(_mm_ceil_ps(a));
+}
+
 CRV__INLINE vm vi_below(vi a, vi n)
 {
     const __m128i last = _mm_sub_epi32((__m128i)n, _mm_set1_epi32(1));
     return (vm)_mm_cmpeq_epi32(_mm_min_epu32((__m128i)a, last), (__m128i)a);
+}
+
+/* Of nibbles by a table, then bytes by the products that add neighbours. */
+CRV__INLINE vi vi_count_bits(vi a)
+{
+    const __m128i table = _mm_setr_epi8(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4);
+    const __m128i low = _mm_set1_epi8(0xf), one = _mm_set1_epi8(1);
+    const __m128i above = _mm_srli_epi32((__m128i)a, 4);
+    const __m128i bytes =
+        _mm_add_epi8(_mm_shuffle_epi8(table, _mm_and_si128((__m128i)a, low)),
+                     _mm_shuffle_epi8(table, _mm_and_si128(above, low)));
+    return (vi)_mm_madd_epi16(_mm_maddubs_epi16(bytes, one), _mm_set1_epi16(1));
 }
 
 /* -2^n, where 2^n is a float's exponent; as an integer 2^31 is what does not fit. */

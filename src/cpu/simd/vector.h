@@ -23,6 +23,8 @@
  *   vi_trunc vi_round vf_of  conversions; the value must fit
  *   vi_floor                 rounded down; negative or INT32_MAX where it does not fit or
  *                            is a NaN
+ *   vi_ceil                  rounded up, likewise
+ *   vi_count_bits            how many bits are set
  *   vm_count                 how many lanes are set
  *   vi_largest               the largest lane
  *   vf_max_within            (a, b, q, limit): the larger of a >= 0 and, if q < limit, b;
@@ -76,17 +78,6 @@ CRV__INLINE vi vi_sub(vi a, vi b)
 CRV__INLINE vi vi_mul(vi a, vi b)
 {
     return (vi)((crv__vu)a * (crv__vu)b);
-}
-
-/* How many bits are set: sums of neighbours, of pairs, of fours, of bytes. */
-CRV__INLINE vi vi_count_bits(vi a)
-{
-    crv__vu n = (crv__vu)a;
-    n = n - (n >> 1 & 0x55555555u);
-    n = (n & 0x33333333u) + (n >> 2 & 0x33333333u);
-    n = (n + (n >> 4)) & 0x0f0f0f0fu;
-    n = n + (n >> 8);
-    return (vi)((n + (n >> 16)) & 0x3fu);
 }
 
 /* Set in the first n lanes. */

@@ -120,9 +120,20 @@ CRV__INLINE vi vi_floor(vf a)
     return vi_trunc(vf_floor(a)) | ~vf_le(a, a);
 }
 
+CRV__INLINE vi vi_ceil(vf a)
+{
+    return vi_trunc((vf)wasm_f32x4_ceil((v128_t)a)) | ~vf_le(a, a);
+}
+
 CRV__INLINE vm vi_below(vi a, vi n)
 {
     return (vm)wasm_u32x4_lt((v128_t)a, (v128_t)n);
+}
+
+CRV__INLINE vi vi_count_bits(vi a)
+{
+    return (vi)wasm_u32x4_extadd_pairwise_u16x8(
+        wasm_u16x8_extadd_pairwise_u8x16(wasm_i8x16_popcnt((v128_t)a)));
 }
 
 /* -2^n: the sign and the exponent of a float, and then as an integer. */
