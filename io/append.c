@@ -347,6 +347,7 @@ static int write_copy(planner *p, const char *output)
     if (io__output_open(&opened, output, p->file->log))
         return -1;
     opened.stop = p->options->stop;
+    opened.watch = p->options->watch;
     if (!io__exr_copy_write(&p->copy, &opened))
         return io__output_commit(&opened);
     io__output_discard(&opened);

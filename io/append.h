@@ -37,7 +37,8 @@ typedef struct io_append_options {
     float
         tint[3]; /* multiplied channels get c * (tint + (1 - tint) * picture); red, green
                       and blue ones their own tint, others the mean of the three */
-    bool (*stop)(void); /* as io_write_options.stop */
+    bool (*stop)(void);    /* as io_write_options.stop */
+    const io_watch *watch; /* as io_write_options.watch */
 } io_append_options;
 
 /*

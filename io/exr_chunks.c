@@ -3,10 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
 #include "exr.h"
 
 /* No lossless method of EXR packs tighter (deflate: 1032 to 1). More is a forged size. */
@@ -284,22 +280,6 @@ static void read_chunk_number(reading *r, int32_t number, exr_decode_pipeline_t 
     }
 }
 
-static void tell(const io__exr *exr, int32_t done, int32_t count)
-{
-    const io_watch *watch = exr->file->watch;
-    if (watch)
-        watch->tell(watch->user, (double)done / (double)count);
-}
-
-static bool is_calling_thread(void)
-{
-#ifdef _OPENMP
-    return omp_get_thread_num() == 0;
-#else
-    return true;
-#endif
-}
-
 int io__exr_read_part(io__exr *exr, int part, float *const *targets)
 {
     reading r = {.exr = exr, .part = part, .targets = targets};
@@ -320,11 +300,10 @@ int io__exr_read_part(io__exr *exr, int part, float *const *targets)
                 read_chunk_number(&r, i, &decode);
             IO__OMP(atomic capture)
             now = ++done;
-            if (is_calling_thread())
-                tell(exr, now, count);
+            io__tell(exr->file->watch, now, count);
         }
         exr_decoding_destroy(exr->context, &decode);
     }
-    tell(exr, count, count);
+    io__tell(exr->file->watch, count, count);
     return r.code ? fail_decode(exr, r.code) : 0;
 }

@@ -287,10 +287,13 @@ static exr_result_t carry_level(carrier *c, int32_t level_x, int32_t level_y)
                                   &tile_height);
     if (!code && (tile_width < 1 || tile_height < 1))
         code = EXR_ERR_CORRUPT_CHUNK;
-    for (int32_t y = 0; !code && (int64_t)y * tile_height < height; y++)
+    for (int32_t y = 0; !code && (int64_t)y * tile_height < height; y++) {
         for (int32_t x = 0; !code && (int64_t)x * tile_width < width; x++)
             code = carry(c, &(io__exr_chunk){
                                 .x = x, .y = y, .level_x = level_x, .level_y = level_y});
+        if (level_x == 0 && level_y == 0) /* most of the work */
+            io__tell(c->sink->output->watch, (int64_t)y * tile_height, height);
+    }
     return code;
 }
 
@@ -322,8 +325,11 @@ static exr_result_t carry_lines(carrier *c)
         code = exr_get_scanlines_per_chunk(in, c->source, &lines);
     if (!code && lines < 1)
         code = EXR_ERR_CORRUPT_CHUNK;
-    for (int64_t y = data.min.y; !code && y <= data.max.y; y += lines)
+    for (int64_t y = data.min.y; !code && y <= data.max.y; y += lines) {
         code = carry(c, &(io__exr_chunk){.y = (int32_t)y});
+        io__tell(c->sink->output->watch, y - data.min.y,
+                 (int64_t)data.max.y - data.min.y + 1);
+    }
     return code;
 }
 
@@ -337,6 +343,7 @@ static exr_result_t copy_part(const io__exr_copy *copy, int part,
         code = carry_tiles(&c);
     else if (!code)
         code = carry_lines(&c);
+    io__tell(sink->output->watch, 1, 1);
     free(c.packed);
     free(c.samples);
     return code;

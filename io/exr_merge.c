@@ -306,8 +306,10 @@ exr_result_t io__exr_merge_part(io__exr_copy *copy, int part, const io__exr_sink
             if (!m.code)
                 m.code =
                     code ? code : io__exr_write_packed(sink, part, &chunk, &w.encode);
+            io__tell(sink->output->watch, i, m.count);
         }
         close_worker(&w);
     }
+    io__tell(sink->output->watch, 1, 1);
     return m.code;
 }

@@ -126,9 +126,11 @@ static exr_result_t write_pixels(const writer *w)
             if (!result)
                 result = code ? code
                               : io__exr_write_packed(&w->sink, w->part, &chunk, &encode);
+            io__tell(w->sink.output->watch, y, w->image->height);
         }
         exr_encoding_destroy(w->sink.context, &encode);
     }
+    io__tell(w->sink.output->watch, 1, 1);
     return result;
 }
 

@@ -156,6 +156,7 @@ int io_write(const char *path, const io_image *image, const io_write_options *op
     if (!format || check_image(path, image, log) || io__output_open(&output, path, log))
         return -1;
     output.stop = options ? options->stop : NULL;
+    output.watch = options ? options->watch : NULL;
     if (format->write(&output, image, options ? options : &defaults)) {
         io__output_discard(&output);
         return -1;

@@ -65,7 +65,8 @@ typedef struct io__output {
     const char *path; /* as the caller wrote it, for messages */
     new_file file;    /* its target has links followed */
     const crv_logger *log;
-    bool (*stop)(void); /* io_write_options.stop */
+    bool (*stop)(void);    /* io_write_options.stop */
+    const io_watch *watch; /* io_write_options.watch */
 } io__output;
 
 /* Opens the temporary file, and removes those that killed processes left beside it. After
@@ -76,6 +77,9 @@ int io__output_commit(io__output *output);
 void io__output_discard(io__output *output);
 /* Logs the failed write with errno's reason; returns -1. */
 int io__output_fail(const io__output *output);
+/* Tells the watch, which may be NULL, that so many of all rows or chunks are done. Other
+ * threads than the one that began the work are not heard. */
+void io__tell(const io_watch *watch, int64_t done, int64_t count);
 /* Whether the caller wants no more of it, from any thread; then io__output_stopped() logs
  * that and returns -1. */
 bool io__output_stops(const io__output *output);

@@ -86,8 +86,8 @@ int io_probe(const char *path, io_image *out, const crv_logger *log);
 int io_read(const char *path, const char *const *names, int32_t count, io_image *out,
             const crv_logger *log);
 
-/* Who is told, now and then and in the calling thread, which share of the pixels is
- * there, from 0 to 1; EXR files only, each part by itself. */
+/* Who is told, now and then and in the calling thread, which share of the pixels is read
+ * or written, from 0 to 1; of EXR files each part by itself. */
 typedef struct io_watch {
     void (*tell)(void *user, double share);
     void *user;
@@ -102,8 +102,9 @@ typedef struct io_write_options {
     int32_t bits; /* PNG: 8 (default, also for 0) or 16 */
     bool
         srgb; /* PNG: encode with the sRGB curve (lit pictures); AO is written linearly */
-    bool (*stop)(void); /* asked now and then by any thread: true gives the writing up,
+    bool (*stop)(void);    /* asked now and then by any thread: true gives the writing up,
                            after an error line. NULL: never */
+    const io_watch *watch; /* NULL: nobody is told */
 } io_write_options;
 
 /*

@@ -4,6 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
 #include "internal.h"
 
 static void remove_leftovers(const char *target, const crv_logger *log)
@@ -43,6 +47,16 @@ int io__output_fail(const io__output *output)
 void io__output_discard(io__output *output)
 {
     new_file_discard(&output->file);
+}
+
+void io__tell(const io_watch *watch, int64_t done, int64_t count)
+{
+#ifdef _OPENMP
+    if (omp_get_thread_num() != 0)
+        return;
+#endif
+    if (watch)
+        watch->tell(watch->user, (double)done / (double)count);
 }
 
 bool io__output_stops(const io__output *output)

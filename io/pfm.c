@@ -110,6 +110,7 @@ static int read_rows(const io__file *file, const pfm_header *header, io_image *i
         for (size_t i = 0; !result && i < width * channels; i++)
             image->channels[i % channels].data[(size_t)y * width + i / channels] =
                 load_float(row + 4 * i, header->little_endian);
+        io__tell(file->watch, header->height - y, header->height);
     }
     free(row);
     return result;
@@ -157,6 +158,7 @@ static int write_rows(io__output *output, const io_image *image, const int32_t *
             result = io__output_fail(output);
         else if (io__output_stops(output))
             result = io__output_stopped(output);
+        io__tell(output->watch, image->height - y, image->height);
     }
     free(row);
     return result;

@@ -14,7 +14,7 @@ typedef struct reader {
     const io__file *file;
     png_structp png;
     png_infop info;
-    int32_t width, height, channels, bytes;
+    int32_t width, height, channels, bytes, passes;
     size_t stored_row_bytes, row_bytes; /* in the file, and expanded */
     unsigned char *pixels;              /* owned */
     png_bytep *rows;                    /* owned */
@@ -84,7 +84,7 @@ static int read_header(reader *r)
         if (low == 1) /* PNG is big-endian, this machine is not */
             png_set_swap(r->png);
     }
-    png_set_interlace_handling(r->png);
+    r->passes = png_set_interlace_handling(r->png);
     png_read_update_info(r->png, r->info);
     r->width = (int32_t)width;
     r->height = (int32_t)height;
@@ -165,12 +165,21 @@ static int allocate_rows(reader *r)
     return 0;
 }
 
+static void tell_row(png_structp png, png_uint_32 row, int pass)
+{
+    const reader *r = png_get_io_ptr(png);
+    io__tell(r->file->watch, (int64_t)pass * r->height + row,
+             (int64_t)r->passes * r->height);
+}
+
 static int read_rows(reader *r)
 {
     if (setjmp(png_jmpbuf(r->png)))
         return damaged(r);
+    png_set_read_status_fn(r->png, tell_row);
     png_read_image(r->png, r->rows);
     png_read_end(r->png, NULL);
+    io__tell(r->file->watch, 1, 1);
     return 0;
 }
 

@@ -96,6 +96,7 @@ static int write_all(writer *w)
             return io__output_stopped(w->output);
         fill_row(w, y);
         png_write_row(w->png, w->row);
+        io__tell(w->output->watch, y + 1, w->image->height);
     }
     png_write_end(w->png, NULL);
     return 0;

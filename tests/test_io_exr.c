@@ -348,45 +348,12 @@ static void test_chunks_of_equal_size(void **state)
         }
 }
 
-typedef struct shares {
-    int count;
-    double last;
-} shares;
-
-static void note_share(void *user, double share)
-{
-    shares *s = user;
-    assert_true(share >= s->last && share <= 1.0);
-    s->last = share;
-    s->count++;
-}
-
-/* Of 25 chunks; the calling thread tells after each of its own, and in the end. */
-static void test_reading_is_told(void **state)
-{
-    static const char *const names[] = {"Z"};
-    const char *path = support_path("told.exr");
-    io_image image, again;
-    shares told = {0};
-    const io_watch watch = {note_share, &told};
-    (void)state;
-    assert_int_equal(io_image_init(&image, 8, 400, names, 1, NULL), 0);
-    assert_int_equal(io_write(path, &image, NULL, NULL), 0);
-    assert_int_equal(io_read_watched(path, names, 1, &watch, &again, support_logger()),
-                     0);
-    assert_in_range(told.count, 1, 26);
-    assert_float_equal(told.last, 1.0, 0.0);
-    io_image_free(&again);
-    io_image_free(&image);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_chunks_of_equal_size),
         cmocka_unit_test(test_storage_and_compression),
         cmocka_unit_test(test_bottom_up),
-        cmocka_unit_test(test_reading_is_told),
         cmocka_unit_test(test_single_channel_of_many),
         cmocka_unit_test(test_windows_and_metadata),
         cmocka_unit_test(test_parts),

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "append.h"
 #include "test_io_support.h"
 
 static const char *const one[] = {"AO"};
@@ -251,6 +252,78 @@ static void test_permissions_and_links(void **state)
     assert_false(leftovers);
 }
 
+typedef struct shares {
+    int count;
+    double last;
+} shares;
+
+static void note_share(void *user, double share)
+{
+    shares *s = user;
+    /* Each part begins anew. */
+    assert_true((share >= s->last || s->last >= 1.0) && share >= 0.0 && share <= 1.0);
+    s->last = share;
+    s->count++;
+}
+
+/* Every row, or every chunk of the calling thread, and in the end of each part. */
+static void check_told(shares *told)
+{
+    assert_in_range(told->count, 1, 3 * 401);
+    assert_float_equal(told->last, 1.0, 0.0);
+    *told = (shares){0};
+}
+
+static void test_long_files_are_told(void **state)
+{
+    static const char *const files[] = {"told.exr", "told.png", "told.pfm"};
+    static const char *const names[] = {"Z"};
+    io_image image, again;
+    shares told = {0};
+    const io_watch watch = {note_share, &told};
+    const io_write_options options = {.watch = &watch};
+    (void)state;
+    assert_int_equal(io_image_init(&image, 8, 400, names, 1, NULL), 0);
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        const char *path = support_path(files[i]);
+        assert_int_equal(io_write(path, &image, &options, support_logger()), 0);
+        check_told(&told);
+        assert_int_equal(io_read_watched(path, NULL, 0, &watch, &again, support_logger()),
+                         0);
+        check_told(&told);
+        io_image_free(&again);
+    }
+    io_image_free(&image);
+}
+
+/* One part with a channel more, packed anew; then two that are copied, and a third. */
+static void test_long_copies_are_told(void **state)
+{
+    static const char *const names[] = {"AO"};
+    const support_part plain = {
+        .width = 8, .height = 400, .channel_count = 1, .channels = {"Z"}};
+    support_part parts[2] = {plain, plain};
+    parts[1].channels[0] = "R";
+    io_image picture;
+    shares told = {0};
+    const io_watch watch = {note_share, &told};
+    const io_append_options options = {.watch = &watch};
+    io_addition addition = {.picture = &picture, .name = "AO", .is_added = true};
+    (void)state;
+    assert_int_equal(io_image_init(&picture, 8, 400, names, 1, NULL), 0);
+    for (int count = 1; count <= 2; count++) {
+        parts[0].name = count > 1 ? "first" : NULL;
+        parts[1].name = "second";
+        addition.beside = count > 1 ? "first.Z" : "Z";
+        support_make_exr(support_path("two.exr"), parts, count, NULL, NULL, NULL);
+        assert_int_equal(io_append(support_path("two.exr"), support_path("more.exr"),
+                                   &addition, 1, &options, support_logger()),
+                         0);
+        check_told(&told);
+    }
+    io_image_free(&picture);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -261,6 +334,8 @@ int main(void)
         cmocka_unit_test(test_pfm_bytes),
         cmocka_unit_test(test_format_is_found_by_content),
         cmocka_unit_test(test_permissions_and_links),
+        cmocka_unit_test(test_long_files_are_told),
+        cmocka_unit_test(test_long_copies_are_told),
     };
     return cmocka_run_group_tests(tests, support_setup, support_teardown);
 }

@@ -75,11 +75,19 @@ ends_soon '^reference:  *[0-9.]* %, [0-9].* left$' ./long.exr.checkpoint referen
     builtin:courtyard $out --size 640x360 --rays 65536
 rm long.exr.checkpoint
 # shellcheck disable=SC2086
-ends_soon '^G-buffer: about ' '' gbuffer builtin:courtyard $out --size 6000x4000 --layers 4
+ends_soon '^G-buffer:  *[0-9.]* %, [0-9].* left$' '' gbuffer builtin:courtyard $out --size 6000x4000 --layers 4
 
 # A measurement of which each run takes long.
 ends_soon '^containment: about ' '' bench builtin:courtyard --threads 1 --size 640x360 \
     --method containment --set samples=4000 --isa scalar
+ends_soon '^estimation:  *[0-9.]* %, [0-9].* left$' '' bench builtin:courtyard \
+    --threads 1 --size 640x360 --method containment --set samples=4000 --isa scalar
+
+# A pixel of which takes so many samples that a large tile of them would take seconds.
+# shellcheck disable=SC2086
+ends_soon '^estimation:  *[0-9.]* %, [0-9].* left$' '' render builtin:courtyard $out \
+    --size 1280x720 --method bitmask --directions 256 --steps 256 --isa scalar
+at_most "$taken" $((3 * most)) "the processor's time before anything is told"
 
 # A comparison, too.
 printf 'Pf\n6000 4000\n-1.0\n' >big.pfm

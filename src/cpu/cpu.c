@@ -33,6 +33,7 @@ typedef struct tiles {
     const crv__picture *input; /* of a filter's pass */
     const crv__picture *out;
     crv__rectangle area;
+    int32_t width, height; /* of a tile: pixels, or groups and rows of pixels */
     int32_t columns, rows;
     void (*row)(const struct tiles *tiles, int32_t x0, int32_t x1, int32_t y);
 } tiles;
@@ -148,16 +149,33 @@ static void tile_place(uint32_t index, int32_t columns, int32_t rows, int32_t st
     *row = rest / width;
 }
 
+/* Nobody is told how far a run is before its first tiles are done: tiles are smaller the
+ * more samples a pixel takes. `pixels`: in a unit of t->width and t->height. */
+static void choose_tile(tiles *t, int32_t pixels, int32_t least_width,
+                        int32_t least_height)
+{
+    enum { MOST_SAMPLES = 1 << 24 };
+    const crv__setup *s = t->work->setup;
+    const crv_options *o = &s->options;
+    const double samples =
+        (s->pattern ? (double)o->samples : (double)o->directions * (double)o->steps)
+        * (1.0 + (double)o->normal_rays) * (double)s->desc.layers * (double)pixels;
+    while (t->height > least_height && samples * t->width * t->height > MOST_SAMPLES)
+        t->height /= 2;
+    while (t->width > least_width && samples * t->width * t->height > MOST_SAMPLES)
+        t->width /= 2;
+}
+
 static void run_tile(void *data, uint32_t index)
 {
     const tiles *t = data;
     const crv__rectangle area = t->area;
     int32_t column, row;
     tile_place(index, t->columns, t->rows, TILE_STRIP, &column, &row);
-    const int32_t x0 = area.x + column * TILE_WIDTH, y0 = area.y + row * TILE_HEIGHT;
+    const int32_t x0 = area.x + column * t->width, y0 = area.y + row * t->height;
     const int32_t right = area.x + area.width, bottom = area.y + area.height;
-    const int32_t x1 = x0 + TILE_WIDTH < right ? x0 + TILE_WIDTH : right;
-    const int32_t y1 = y0 + TILE_HEIGHT < bottom ? y0 + TILE_HEIGHT : bottom;
+    const int32_t x1 = x0 + t->width < right ? x0 + t->width : right;
+    const int32_t y1 = y0 + t->height < bottom ? y0 + t->height : bottom;
     for (int32_t y = y0; y < y1; y++)
         t->row(t, x0, x1, y);
 }
@@ -165,8 +183,12 @@ static void run_tile(void *data, uint32_t index)
 static void run_tiles(tiles *t)
 {
     t->area = crv__setup_rectangle(t->work->setup);
-    t->columns = (t->area.width + TILE_WIDTH - 1) / TILE_WIDTH;
-    t->rows = (t->area.height + TILE_HEIGHT - 1) / TILE_HEIGHT;
+    t->width = TILE_WIDTH;
+    t->height = TILE_HEIGHT;
+    if (t->method)
+        choose_tile(t, 1, CRV__GROUP_SPAN, 1);
+    t->columns = (t->area.width + t->width - 1) / t->width;
+    t->rows = (t->area.height + t->height - 1) / t->height;
     crv__run_parallel(t->work->setup->context, (uint32_t)t->columns * (uint32_t)t->rows,
                       run_tile, t);
 }
@@ -220,11 +242,11 @@ static void run_group_tile(void *data, uint32_t index)
         (out->x0 + out->width + t->di->left + CRV__GROUP_SPAN - 1) / CRV__GROUP_SPAN;
     int32_t column, row;
     tile_place(index, t->columns, t->rows, GROUP_TILE_STRIP, &column, &row);
-    const int32_t first = left + column * GROUP_TILE_WIDTH;
-    const int32_t last = first + GROUP_TILE_WIDTH < end ? first + GROUP_TILE_WIDTH : end;
-    const int32_t y0 = out->y0 + row * GROUP_TILE_HEIGHT;
+    const int32_t first = left + column * t->width;
+    const int32_t last = first + t->width < end ? first + t->width : end;
+    const int32_t y0 = out->y0 + row * t->height;
     const int32_t bottom = out->y0 + out->height;
-    const int32_t y1 = y0 + GROUP_TILE_HEIGHT < bottom ? y0 + GROUP_TILE_HEIGHT : bottom;
+    const int32_t y1 = y0 + t->height < bottom ? y0 + t->height : bottom;
     const int32_t from = first * CRV__GROUP_SPAN - t->di->left;
     const int32_t to = last * CRV__GROUP_SPAN - t->di->left;
     const int32_t x0 = from > out->x0 ? from : out->x0;
@@ -247,8 +269,11 @@ static void run_group_tiles(tiles *t)
     const int32_t left = (out->x0 + t->di->left) / CRV__GROUP_SPAN;
     const int32_t end =
         (out->x0 + out->width + t->di->left + CRV__GROUP_SPAN - 1) / CRV__GROUP_SPAN;
-    t->columns = (end - left + GROUP_TILE_WIDTH - 1) / GROUP_TILE_WIDTH;
-    t->rows = (out->height + GROUP_TILE_HEIGHT - 1) / GROUP_TILE_HEIGHT;
+    t->width = GROUP_TILE_WIDTH;
+    t->height = GROUP_TILE_HEIGHT;
+    choose_tile(t, CRV__GROUP_SPAN, 1, CRV__PHASES);
+    t->columns = (end - left + t->width - 1) / t->width;
+    t->rows = (out->height + t->height - 1) / t->height;
     crv__run_parallel(t->work->setup->context, (uint32_t)t->columns * (uint32_t)t->rows,
                       run_group_tile, t);
 }

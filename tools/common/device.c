@@ -134,11 +134,14 @@ int device_context(const common_settings *common, report *r, progress *run,
 }
 
 int device_context_in(const common_settings *common, const crv_logger *logger,
-                      const crv_allocator *allocator, report *r, crv_context **out)
+                      const crv_allocator *allocator, bool tells, report *r,
+                      crv_context **out)
 {
     crv_context_desc desc;
     crv_context_desc_init(&desc, sizeof desc);
     desc.logger = *logger;
     desc.allocator = *allocator;
+    if (tells)
+        desc.parallel = progress_loops(r, common->threads.value);
     return make_context(common, &desc, r, out);
 }

@@ -12,10 +12,11 @@
 int device_context(const common_settings *common, report *r, progress *run,
                    crv_context **out);
 
-/* The same with this logger, memory from this allocator and the library's own loops, for
- * timing. */
+/* The same with this logger and memory from this allocator; unless it tells, with the
+ * library's own loops, for timing. */
 int device_context_in(const common_settings *common, const crv_logger *logger,
-                      const crv_allocator *allocator, report *r, crv_context **out);
+                      const crv_allocator *allocator, bool tells, report *r,
+                      crv_context **out);
 
 /* Whether --device chooses the CPU, the only one to which --isa and --exact apply. */
 bool device_is_cpu(const common_settings *common);

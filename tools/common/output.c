@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 
+#include "progress.h"
 #include "system/interrupt.h"
 
 /* To bring the bytes to disk; what is not packed then is given up before. */
@@ -28,11 +29,15 @@ int output_write(const char *path, const io_image *image, const io_write_options
                  report *r)
 {
     io_write_options with_stop = options ? *options : (io_write_options){0};
+    progress p = progress_begin(r, path, 0, PROGRESS_SHARES);
+    const io_watch watch = {progress_share, &p};
     with_stop.stop = interrupt_is_late;
+    with_stop.watch = &watch;
     /* io_write() goes through a temporary file, which a signal in the middle would leave
      * behind. */
     interrupt_hold(GRACE_S);
     const int written = io_write(path, image, &with_stop, &r->logger);
+    progress_end(&p);
     interrupt_release();
     if (written != 0)
         return EXIT_FAILED;
@@ -44,9 +49,13 @@ int output_append(const char *input, const char *path, const io_addition *additi
                   int32_t count, const io_append_options *options, report *r)
 {
     io_append_options with_stop = *options;
+    progress p = progress_begin(r, path, 0, PROGRESS_SHARES);
+    const io_watch watch = {progress_share, &p};
     with_stop.stop = interrupt_is_late;
+    with_stop.watch = &watch;
     interrupt_hold(GRACE_S);
     const int written = io_append(input, path, additions, count, &with_stop, &r->logger);
+    progress_end(&p);
     interrupt_release();
     if (written != 0)
         return EXIT_FAILED;

@@ -10,7 +10,7 @@
 #include "system/file.h"
 
 #define LINE_SECONDS  10.0 /* between lines if there is no terminal */
-#define SOON_SECONDS  1.0  /* after this time the rest can be estimated */
+#define SOON_SECONDS  0.2  /* after this time the rest can be estimated */
 #define LONG_SECONDS  10.0 /* what takes longer is told of */
 #define FRESH_SECONDS 0.25 /* between changes on a terminal */
 
@@ -81,6 +81,11 @@ void progress_show(progress *p, int64_t done)
 void progress_rows(void *user, int32_t rows)
 {
     progress_show(user, rows);
+}
+
+void progress_share(void *user, double share)
+{
+    progress_show(user, (int64_t)(share * PROGRESS_SHARES));
 }
 
 void progress_end(progress *p)

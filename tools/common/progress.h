@@ -30,6 +30,10 @@ void progress_end(progress *p);
 /* progress_show() as scene's loops call it; user: the progress. */
 void progress_rows(void *user, int32_t rows);
 
+/* The same for who tells a share from 0 to 1: total is PROGRESS_SHARES. */
+enum { PROGRESS_SHARES = 1000000 };
+void progress_share(void *user, double share);
+
 /* Runs the library's loops on OpenMP's threads, as the library itself does, and says of
  * those that take more than ten seconds how long they will. threads: 0 for all. Zeroed,
  * so that the library runs them, if the tool is built without OpenMP. */

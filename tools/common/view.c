@@ -14,15 +14,10 @@
 
 static const double degree = 3.14159265358979323846 / 180.0;
 
-/* Pixels times layers from which on ray casting may take longer than ten seconds; the
- * trial has 1 / TRIAL_SHARE of each side. */
-#define MANY_SAMPLES 4e6
-
 /* What importers read: OBJ 19e6 and glTF 40e6 bytes a second, in 2024 on one processor.
  * Between lines that they still do: */
 #define READ_BYTES_PER_SECOND 2e7
 #define WAIT_SECONDS          10.0
-enum { TRIAL_SHARE = 12 };
 
 /* In the order of crv_layers. */
 static const char *const layer_kinds[] = {"surfaces", "solid", NULL};
@@ -313,28 +308,6 @@ bool view_shows_something(const scene_gbuffer *g)
     return false;
 }
 
-/* Large ones take long, which a small one with as many layers tells beforehand. */
-static void announce(const scene *model, const scene_gbuffer_request *request, report *r)
-{
-    const double pixels = (double)(request->width + 2 * request->guard_px)
-                          * (double)(request->height + 2 * request->guard_px);
-    const crv_logger errors = report_errors_only(r);
-    scene_gbuffer_request trial = *request;
-    scene_gbuffer cast = {0};
-    if (pixels * request->layers < MANY_SAMPLES)
-        return;
-    trial.width = request->width / TRIAL_SHARE + 1;
-    trial.height = request->height / TRIAL_SHARE + 1;
-    trial.guard_px = request->guard_px / TRIAL_SHARE;
-    const double start = report_seconds();
-    if (scene_render_gbuffer(model, &trial, &cast, &errors) == 0) {
-        const double cast_pixels = (double)cast.desc.width * (double)cast.desc.height;
-        progress_announce(r, "G-buffer",
-                          (report_seconds() - start) * pixels / cast_pixels);
-    }
-    scene_gbuffer_free(&cast);
-}
-
 int view_render(const view_settings *s, const scene *model, bool texture_frames,
                 scene_gbuffer *out, report *r)
 {
@@ -355,7 +328,6 @@ int view_render(const view_settings *s, const scene *model, bool texture_frames,
     if (result != EXIT_DONE)
         return result;
     report_info(r, "camera: %s", exact_view(model, &request.view, camera));
-    announce(model, &request, r);
     progress p = progress_begin(r, "G-buffer", 0, request.height + 2 * request.guard_px);
     request.watch = progress_rows;
     request.user = &p;

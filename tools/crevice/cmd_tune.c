@@ -343,7 +343,8 @@ static int run(const void *settings, report *r)
     if (result != EXIT_DONE)
         return result;
     interrupt_hold(GRACE_S);
-    result = device_context_in(&s->in.view.common, &logger, &usual, r, &w.e.context);
+    result =
+        device_context_in(&s->in.view.common, &logger, &usual, true, r, &w.e.context);
     if (result == EXIT_DONE)
         result = tune(&w, fits, &log);
     free_work(&w);

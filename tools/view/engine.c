@@ -74,7 +74,8 @@ int engine_open(engine *e, source *from, truth *t, const common_settings *common
         return report_no_memory(r);
     /* The library's own loops: those of the tool tell how far long estimates are. */
     const crv_allocator usual = {0};
-    return device_context_in(common, &e->quiet.logger, &usual, r, &e->estimator.context);
+    return device_context_in(common, &e->quiet.logger, &usual, false, r,
+                             &e->estimator.context);
 }
 
 void engine_close(engine *e)

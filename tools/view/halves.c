@@ -196,7 +196,7 @@ static bool open_single(engine *e)
     common.exact = true;
     common.threads = (arg_int){.given = true, .value = 1};
     return e->single
-           || device_context_in(&common, &silent, &usual, &e->quiet, &e->single)
+           || device_context_in(&common, &silent, &usual, false, &e->quiet, &e->single)
                   == EXIT_DONE;
 }
 

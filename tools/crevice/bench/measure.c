@@ -32,8 +32,9 @@ static void count_release(void *user, void *bytes, size_t size)
     memory_release(bytes);
 }
 
+/* tells: its runs take so long that they say how far they are. */
 static int open_context(const bench_settings *s, const bench_case *c, memory *m,
-                        report *r, crv_context **out)
+                        bool tells, report *r, crv_context **out)
 {
     const crv_logger log = report_errors_only(r);
     const crv_allocator allocator = {count_allocate, count_release, m};
@@ -45,7 +46,7 @@ static int open_context(const bench_settings *s, const bench_case *c, memory *m,
         common.isa = crv_isa_name((crv_isa)c->isa);
         common.exact = c->structure == 1;
     }
-    return device_context_in(&common, &log, &allocator, r, out);
+    return device_context_in(&common, &log, &allocator, tells, r, out);
 }
 
 typedef struct running {
@@ -112,6 +113,25 @@ static int run_case(const bench_clock *clock, crv_context *context, const memory
     return EXIT_DONE;
 }
 
+/* Announces runs that take long. */
+static int announce(const bench_settings *s, const bench_case *c, float *pixels,
+                    report *r, bool *is_long)
+{
+    crv_context *context = NULL;
+    memory m = {0};
+    if (!device_is_cpu(&s->common))
+        return EXIT_DONE;
+    const int result = open_context(s, c, &m, false, r, &context);
+    if (result != EXIT_DONE)
+        return result;
+    const double seconds = bench_trial(c, context, pixels);
+    crv_context_destroy(context);
+    progress_announce(
+        r, c->filter_only ? c->options.filter->name : c->options.method->name, seconds);
+    *is_long = progress_is_long(seconds);
+    return EXIT_DONE;
+}
+
 int bench_measure(const bench_settings *s, const bench_clock *clock, const bench_case *c,
                   report *r, bench_outcome *out)
 {
@@ -120,19 +140,19 @@ int bench_measure(const bench_settings *s, const bench_clock *clock, const bench
     running *w = calloc(1, sizeof *w);
     crv_context *context = NULL;
     memory m = {0};
+    bool is_long = false;
     *out = (bench_outcome){0};
     int result = pixels && w ? EXIT_DONE : report_no_memory(r);
-    if (result == EXIT_DONE)
-        result = open_context(s, c, &m, r, &context);
     if (result == EXIT_DONE) {
         memset(pixels, 0, count * sizeof *pixels); /* touches the pages */
+        result = announce(s, c, pixels, r, &is_long);
+    }
+    if (result == EXIT_DONE)
+        result = open_context(s, c, &m, is_long, r, &context);
+    if (result == EXIT_DONE) {
         w->of = c;
         w->on_device = !device_is_cpu(&s->common) && !c->filter_only;
         w->image = crv_image_packed(pixels, c->scene->width, c->scene->height, 1);
-        if (device_is_cpu(&s->common))
-            progress_announce(
-                r, c->filter_only ? c->options.filter->name : c->options.method->name,
-                bench_trial(c, context, pixels));
         result = run_case(clock, context, &m, w, r, out);
     }
     if (w) {
