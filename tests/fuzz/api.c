@@ -108,6 +108,8 @@ static crv_gbuffer_desc make_desc(fuzz_bytes *in)
         d.layer_kind = (crv_layers)(fuzz_byte(in) % 4);
     if (fuzz_seldom(in, 32))
         d.struct_size = fuzz_byte(in);
+    if (d.struct_size < sizeof d) /* as the library takes it: an older struct's */
+        memset((char *)&d + d.struct_size, 0, sizeof d - d.struct_size);
     return d;
 }
 
