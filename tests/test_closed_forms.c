@@ -341,6 +341,34 @@ static void slices_leave_steep_planes_open(void **state)
     }
 }
 
+/* Depth off a plane by 0.07 footprints along the normal, either way: at 80 degrees P is
+ * raised by 1/4 - cos(80)/2 = 0.163 of one, more than two pixels are apart. */
+static void slices_leave_rough_planes_open(void **state)
+{
+    (void)state;
+    enum { WIDTH = 96, HEIGHT = 64 };
+    const double tilt = 80 * PI / 180, parameters[3] = {tilt, 300, 0.7};
+    const crv_camera camera = crv_camera_orthographic(WIDTH, HEIGHT, 8);
+    fixture f = fixture_make(fixture_plane, parameters, &camera, WIDTH, HEIGHT);
+    const double off = 0.07 / (double)camera.fx_px / cos(tilt);
+    for (int32_t i = 0; i < WIDTH * HEIGHT; i++)
+        f.depth[i] += (float)(i * 7 % 11 < 5 ? off : -off);
+    static const char *const METHODS[] = {"gtao", "bitmask"};
+    for (int k = 0; k < 4; k++) {
+        crv_options options = fixture_options(METHODS[k & 1]);
+        options.filter = NULL;
+        options.weighting = k >> 1 ? CRV_WEIGHTING_UNIFORM : CRV_WEIGHTING_COSINE;
+        options.radius = 2;
+        options.border = CRV_BORDER_BACKGROUND; /* roughness is not to be extrapolated */
+        float *result = fixture_compute(&f, &options, NULL);
+        for (int32_t i = 0; i < WIDTH * HEIGHT; i++)
+            if (!(result[i] > 1 - 5e-4f))
+                fail_msg("%s, %d: %g", METHODS[k & 1], k >> 1, (double)result[i]);
+        free(result);
+    }
+    fixture_free(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -348,6 +376,7 @@ int main(void)
         cmocka_unit_test(error_falls_with_samples),
         cmocka_unit_test(a_plane_does_not_occlude_itself),
         cmocka_unit_test(slices_leave_steep_planes_open),
+        cmocka_unit_test(slices_leave_rough_planes_open),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

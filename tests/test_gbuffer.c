@@ -508,6 +508,33 @@ static void unusable_normals_are_mended(void **state)
     fixture_free(&f);
 }
 
+/* n.V is -0.2: interpolated, for depth shows a surface that faces the camera. */
+static void normals_that_look_away_are_bent(void **state)
+{
+    (void)state;
+    const crv_camera camera = crv_camera_orthographic(WIDTH, HEIGHT, 8);
+    const double plane[3] = {0.785, 10, 0};
+    fixture f = fixture_make(fixture_plane, plane, &camera, WIDTH, HEIGHT);
+    static float away[3 * COUNT], normals[3 * COUNT];
+    for (int32_t i = 0; i < COUNT; i++) { /* sideways as the plane's, but leaning back */
+        const double x = (double)f.normals[3 * i], y = (double)f.normals[3 * i + 1];
+        away[3 * i] = (float)(x / hypot(x, y) * sqrt(1 - 0.04));
+        away[3 * i + 1] = (float)(y / hypot(x, y) * sqrt(1 - 0.04));
+        away[3 * i + 2] = -0.2f;
+    }
+    bench b;
+    open_bench(&b, 1, NULL);
+    set_frame(&b, &f, NULL, f.depth);
+    const crv_const_image image = crv_const_image_packed(away, WIDTH, HEIGHT, 3);
+    assert_int_equal(crv_gbuffer_set_normals(b.gbuffer, &image, CRV_NORMAL_VIEW), CRV_OK);
+    get_normals(&b, normals);
+    /* n + 0.3 V, of unit length: 0.1 / sqrt(1 - 0.04 + 0.01) */
+    for (int32_t i = 0; i < COUNT; i++)
+        assert_true(fabs((double)normals[3 * i + 2] - 0.1 / sqrt(0.97)) < 1e-5);
+    close_bench(&b);
+    fixture_free(&f);
+}
+
 /* A far surface seen in the second layer occludes what the first layer's near bar hides.
  */
 static void a_second_layer_occludes(void **state)
@@ -558,6 +585,7 @@ int main(void)
         cmocka_unit_test(reconstruction_does_not_cross_edges),
         cmocka_unit_test(world_space_normals_are_turned),
         cmocka_unit_test(unusable_normals_are_mended),
+        cmocka_unit_test(normals_that_look_away_are_bent),
         cmocka_unit_test(a_second_layer_occludes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

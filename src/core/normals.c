@@ -59,12 +59,14 @@ static crv__vec3 from_depth(const crv__params *p, const crv__plane *depth, int32
 /*
  * A shading normal may lean away from the camera. Where it contradicts the surface that
  * depth shows, it belongs to the back of a triangle: turn it round. Otherwise
- * (interpolated at a silhouette) bend it until it just faces the camera.
+ * (interpolated at a silhouette) bend it until it faces the camera as surfaces at a
+ * silhouette do: if it just did, methods would take the surface for seen edge-on.
  */
 static crv__vec3 face_camera(const crv__params *p, const crv__plane *depth, int32_t x,
                              int32_t y, float d, crv__vec3 n)
 {
     const float least = 1e-3f; /* cosine that is left to the viewer: 0.06 degrees */
+    const float enough = 0.1f;
     crv__vec3 P = crv__unproject(p, x, y, d);
     crv__vec3 view = p->orthographic ? (crv__vec3){0, 0, 1}
                                      : normalized((crv__vec3){-P.x, -P.y, -P.z});
@@ -77,7 +79,7 @@ static crv__vec3 face_camera(const crv__params *p, const crv__plane *depth, int3
         if (facing >= least)
             return n;
     }
-    const float add = least - facing;
+    const float add = (facing < 0 ? enough : least) - facing;
     crv__vec3 bent = normalized(
         (crv__vec3){n.x + add * view.x, n.y + add * view.y, n.z + add * view.z});
     return crv__dot(bent, view) > 0 ? bent : view;

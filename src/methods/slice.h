@@ -35,7 +35,13 @@
  * out of the slice; they are moved back onto it parallel to the tangent plane, so that a
  * plane stays one:
  *
- *     v = S - P,   x = v.T,   z = (v.n - b x)/a
+ *     v = S - P,   x = v.T,   z = (v.n - b x)/a - e ds/d
+ *
+ * 1/a multiplies what depth and normals are off by at grazing angles. So P is raised by
+ * e: along n, that is up to a quarter of a pixel's footprint at its depth, and nothing if
+ * V is within 60 degrees of n. A plane stays open, for then it lies below the tangent.
+ *
+ *     e = d max(1/fx, 1/fy) max(0, 1/4 - a/2)/a      orthographic: without d and ds/d
  */
 #ifndef CRV_METHODS_SLICE_H
 #define CRV_METHODS_SLICE_H
@@ -54,6 +60,7 @@ typedef struct crv__slice_site {
     crv__vec3 ray; /* view ray at unit depth */
     crv__vec3 V;
     float a;
+    float lift;     /* e/d; orthographic: e */
     float nearness; /* 1/unit, less if the radius would project beyond max_radius_px */
 } crv__slice_site;
 
@@ -88,6 +95,7 @@ static inline crv__slice_site crv__slice_site_at(const crv__frame *f, int32_t x,
         site.V = (crv__vec3){-site.ray.x * inverse, -site.ray.y * inverse, inverse};
     }
     site.a = fmaxf(crv__dot(site.n, site.V), 0.02f);
+    site.lift = fmaxf(p->inv_fx, p->inv_fy) * fmaxf(0, 0.25f - 0.5f * site.a) / site.a;
     const float largest = fmaxf(p->fx, p->fy) * p->radius / site.unit;
     site.nearness = 1 / site.unit;
     if (largest > p->max_radius_px)
@@ -273,7 +281,8 @@ static inline crv__vec2 crv__slice_point(const crv__params *p,
     const crv__vec3 v = {behind * ray.x + site->unit * offset.x,
                          behind * ray.y + site->unit * offset.y, -behind};
     const float x = crv__dot(v, s->T);
-    return (crv__vec2){x, (crv__dot(v, site->n) - s->b * x) / site->a};
+    const float lift = p->orthographic ? site->lift : site->lift * depth;
+    return (crv__vec2){x, (crv__dot(v, site->n) - s->b * x) / site->a - lift};
 }
 
 /* O and K of a slice: x along T, y along V. */

@@ -86,7 +86,7 @@ CRV__INLINE crv__v3 face_camera(const pixels *at, crv__v3 n, vm active)
 {
     if (!at->params->orthographic && faces_clearly(at, n, active))
         return n;
-    const vf least = vf_set(1e-3f), zero = vf_zero();
+    const vf least = vf_set(1e-3f), enough = vf_set(0.1f), zero = vf_zero();
     const crv__v3 view = at->params->orthographic
                              ? (crv__v3){zero, zero, vf_set(1)}
                              : normalized((crv__v3){-at->P.x, -at->P.y, -at->P.z});
@@ -99,7 +99,7 @@ CRV__INLINE crv__v3 face_camera(const pixels *at, crv__v3 n, vm active)
         n = select3(back, (crv__v3){-n.x, -n.y, -n.z}, n);
         facing = vf_select(back, -facing, facing);
     }
-    const vf add = least - facing;
+    const vf add = vf_select(vf_lt(facing, zero), enough, least) - facing;
     const crv__v3 bent = normalized(crv__v3_add_scaled(n, view, add));
     const crv__v3 turned = select3(vf_lt(zero, crv__v3_dot(bent, view)), bent, view);
     return select3(vf_le(least, facing), n, turned);

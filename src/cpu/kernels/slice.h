@@ -11,7 +11,7 @@
 
 /* The shaded points: see crv__slice_site. */
 typedef struct crv__lanes_site {
-    vf unit, a, nearness;
+    vf unit, a, lift, nearness;
     crv__v3 ray, V;
 } crv__lanes_site;
 
@@ -20,6 +20,14 @@ typedef struct crv__lanes_slice {
     vf b, weight, cos_tangent, sin_tangent, total, inverse;
     vf step_x, step_y, length_px, jitter, sector_offset;
 } crv__lanes_slice;
+
+/* The lift of a site. */
+CRV__INLINE vf crv__lanes_lift(const crv__params *p, vf a)
+{
+    const float footprint = p->inv_fx > p->inv_fy ? p->inv_fx : p->inv_fy;
+    const vf share = vf_set(0.25f) - vf_set(0.5f) * a;
+    return vf_set(footprint) * vf_max(share, vf_zero()) / a;
+}
 
 CRV__INLINE crv__lanes_site crv__lanes_site_at(const crv__params *p, crv__shape shape,
                                                const crv__pixels *at)
@@ -35,6 +43,7 @@ CRV__INLINE crv__lanes_site crv__lanes_site_at(const crv__params *p, crv__shape 
         site.V = (crv__v3){-site.ray.x * inverse, -site.ray.y * inverse, inverse};
     }
     site.a = vf_max(crv__v3_dot(at->n, site.V), vf_set(0.02f));
+    site.lift = crv__lanes_lift(p, site.a);
     const float focal = p->fx > p->fy ? p->fx : p->fy;
     const vf largest = vf_set(focal * p->radius) / site.unit,
              cap = vf_set(p->max_radius_px);
@@ -249,7 +258,8 @@ CRV__INLINE void crv__lanes_slice_point(const crv__params *p, crv__shape shape,
     const crv__v3 v = {behind * ray_x + site->unit * offset_x,
                        behind * ray_y + site->unit * offset_y, -behind};
     *x = crv__v3_dot(v, s->T);
-    *z = (crv__v3_dot(v, at->n) - s->b * *x) / site->a;
+    const vf lift = shape.orthographic ? site->lift : site->lift * depth;
+    *z = (crv__v3_dot(v, at->n) - s->b * *x) / site->a - lift;
 }
 
 /* crv__slice_vectors */

@@ -6,10 +6,10 @@
  * units). With k = 1 - ds/d a sample at the step o of the image plane at unit depth is
  * v = o - k (ray + o). T is at right angles to the ray, so that on the slice
  *
- *     x = (1 - k) T.o     z = (v.n - b x)/a = q + k (g - q)
- *     q = (n.o - b T.o)/a = c.o     g = |ray| (n.V)/a
+ *     x = (1 - k) T.o     z = q + k (g - q)
+ *     q = (n.o - b T.o)/a - e/d = c.o - e/d     g = |ray| (n.V)/a
  *
- * and orthographic, with k = d - ds, x = T.o and z = q + k g, g = (n.V)/a.
+ * and orthographic, with k = d - ds, x = T.o and z = q + k g, q = c.o - e, g = (n.V)/a.
  */
 #ifndef CRV_CPU_KERNELS_SLICE_GROUPS_H
 #define CRV_CPU_KERNELS_SLICE_GROUPS_H
@@ -23,7 +23,7 @@ typedef struct crv__slice_view {
     const crv__noise_texel *noise; /* all lanes' */
     vf scale, origin;              /* k = origin - scale * ds */
     vf radius, radius2, inverse_radius;
-    vf a, inverse_a, g;
+    vf a, inverse_a, g, minus_lift;
     crv__v3 V;
 } crv__slice_view;
 
@@ -66,6 +66,7 @@ CRV__INLINE crv__slice_view crv__slice_view_of(const crv__group_pixels *at,
     w.a = vf_max(facing, vf_set(0.02f));
     w.inverse_a = one / w.a;
     w.g = length * facing * w.inverse_a;
+    w.minus_lift = vf_zero() - crv__lanes_lift(p, w.a);
     return w;
 }
 
@@ -109,7 +110,7 @@ CRV__INLINE void crv__group_slice_point(const crv__slice_view *w,
     const vf x2 = vf_set(sample->x2), y2 = vf_set(sample->y2);
     const vf k = vf_fma(-depth, w->scale, w->origin);
     const vf m = vf_fma(x2, s->half_Tx, y2 * s->half_Ty);
-    const vf q = vf_fma(x2, s->half_cx, y2 * s->half_cy);
+    const vf q = vf_fma(x2, s->half_cx, vf_fma(y2, s->half_cy, w->minus_lift));
     *x = orthographic ? m : vf_fma(-k, m, m);
     *z = orthographic ? vf_fma(k, w->g, q) : vf_fma(k, w->g - q, q);
 }

@@ -103,10 +103,11 @@ vec3 normal_from_depth(ivec2 at, float d)
 
 /* A shading normal that points away from the camera belongs to the back of a triangle
  * if it contradicts the surface that depth shows: turn it round. Otherwise bend it
- * until it just faces the camera. */
+ * until it faces the camera as surfaces at a silhouette do. */
 vec3 facing_camera(ivec2 at, float d, vec3 n)
 {
     const float least = 1e-3; /* cosine that is left to the viewer: 0.06 degrees */
+    const float enough = 0.1;
     const vec3 view = is_orthographic() ? vec3(0, 0, 1) : normalized(-unproject(at, d));
     float facing = dot(n, view);
     if (facing >= least)
@@ -117,7 +118,7 @@ vec3 facing_camera(ivec2 at, float d, vec3 n)
         if (facing >= least)
             return n;
     }
-    const vec3 bent = normalized(n + (least - facing) * view);
+    const vec3 bent = normalized(n + ((facing < 0 ? enough : least) - facing) * view);
     return dot(bent, view) > 0 ? bent : view;
 }
 

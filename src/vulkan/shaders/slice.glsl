@@ -23,6 +23,7 @@ struct SliceSite {
     vec3 ray; /* view ray at unit depth */
     vec3 V;
     float a;
+    float lift;     /* of P along V, over its depth; orthographic: as it is */
     float nearness; /* 1/unit, less if the radius would project beyond max_radius_px */
 };
 
@@ -54,6 +55,7 @@ SliceSite slice_site(ivec2 at, float d)
         s.V = vec3(-s.ray.x * inverse, -s.ray.y * inverse, inverse);
     }
     s.a = max(dot(s.n, s.V), 0.02);
+    s.lift = max(params.inv_fx, params.inv_fy) * max(0.0, 0.25 - 0.5 * s.a) / s.a;
     precise float largest = max(params.fx, params.fy) * params.radius / s.unit;
     precise float nearness = 1 / s.unit;
     precise float capped = nearness * (params.max_radius_px / largest);
@@ -212,7 +214,8 @@ vec2 slice_point(SliceSite site, Slice s, SliceTexel t, float depth)
     const float behind = depth - site.depth;
     const vec3 v = vec3(behind * ray + site.unit * offset, -behind);
     const float x = dot(v, s.T);
-    return vec2(x, (dot(v, site.n) - s.b * x) / site.a);
+    const float lift = is_orthographic() ? site.lift : site.lift * depth;
+    return vec2(x, (dot(v, site.n) - s.b * x) / site.a - lift);
 }
 
 /* O and K of a slice: x along T, y along V. */
