@@ -21,7 +21,8 @@ target_include_directories(crevice_fuzz
     PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/fuzz ${tool_dir} ${PROJECT_SOURCE_DIR})
 target_link_libraries(crevice_fuzz
     PUBLIC crevice_common embree PRIVATE crevice_flags PkgConfig::CJSON)
-target_sources(crevice_fuzz INTERFACE ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/requests.c)
+target_sources(crevice_fuzz INTERFACE
+    ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/edges.c ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/requests.c)
 foreach(call malloc calloc realloc import_pipe_send _exit)
     target_link_options(crevice_fuzz INTERFACE LINKER:--wrap=${call})
 endforeach()

@@ -70,6 +70,11 @@ extern int fuzz_errors;
 size_t fuzz_largest_request(void);
 void fuzz_forget_requests(void);
 
+/* edges.c: from the first call on, children count their edges where fuzz_add_edges() adds
+ * them to libFuzzer's. */
+void fuzz_share_edges(void);
+void fuzz_add_edges(void);
+
 /* Values made of the input's bytes; zeros once they are used up. */
 typedef struct fuzz_bytes {
     const uint8_t *at;
