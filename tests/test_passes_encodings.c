@@ -145,6 +145,27 @@ static void test_projective_without_normals(void **state)
     }
 }
 
+/* Depth that was written in 8 bits, or as whole numbers of a small unit, is told; a ramp
+ * along one axis has as few numbers, but no stairs. */
+static void test_stairs(void **state)
+{
+    (void)state;
+    const io_passes_request request = request_of(50);
+    io_frame frame;
+    make_usual(50);
+    for (int i = 0; i < PIXELS; i++)
+        planes[0][i] = (float)(isfinite(depth[i]) ? round(10.0 * depth[i]) / 10.0 : 1e10);
+    load(write_frame(false, NULL), &request, &frame);
+    assert_non_null(
+        strstr(support_lines.text, " steps of 0.1, as if written in 8 bits"));
+    io_frame_free(&frame);
+    for (int i = 0; i < PIXELS; i++)
+        planes[0][i] = (float)(5 + i % W) / 7.0f;
+    load(write_frame(false, NULL), &request, &frame);
+    assert_null(strstr(support_lines.text, "8 bits"));
+    io_frame_free(&frame);
+}
+
 /* Distances over a number: directions agree, but lengths do not. */
 static void test_normalised(void **state)
 {
@@ -289,6 +310,7 @@ int main(void)
         cmocka_unit_test(test_encodings),
         cmocka_unit_test(test_radial_without_normals),
         cmocka_unit_test(test_projective_without_normals),
+        cmocka_unit_test(test_stairs),
         cmocka_unit_test(test_normalised),
         cmocka_unit_test(test_unmarked_sky),
         cmocka_unit_test(test_filtered_sky),

@@ -57,6 +57,11 @@ static void test_names(void **state)
           "V.Normal.left.X", "V.Normal.left.Y", "V.Normal.left.Z"},
          "V.Depth.left.Z",
          "V.Normal.left.X"},
+        /* Nuke's parts of a stereo frame. */
+        {{"rgba.left.N.X", "rgba.left.N.Y", "rgba.left.N.Z", "rgba.left.Z",
+          "rgba.right.N.X", "rgba.right.N.Y", "rgba.right.N.Z", "rgba.right.Z"},
+         "rgba.left.Z",
+         "rgba.left.N.X"},
         {{"R", "G", "B"}, NULL, NULL},
         {{"AO"}, NULL, NULL},
         {{"Pref.X", "Pref.Y", "Pref.Z"}, NULL, NULL},
@@ -81,6 +86,7 @@ static void test_names(void **state)
             continue;
         }
         assert_int_equal(result, 0);
+        assert_null(strstr(support_lines.text, "another layer"));
         assert_string_equal(frame.image.channels[0].name, cases[i].depth);
         if (cases[i].normal_x)
             assert_string_equal(frame.image.channels[1].name, cases[i].normal_x);

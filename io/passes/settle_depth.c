@@ -5,6 +5,7 @@
 
 #include "halves.h"
 #include "internal.h"
+#include "steps.h"
 #include "trial.h"
 
 /* Blender writes this if a ray met nothing; no renderer writes more for a surface. */
@@ -48,6 +49,18 @@ static void smooth_halves(const char *path, const io_passes_request *request,
         "them is lost; write it in 32-bit floats");
 }
 
+static void tell_of_steps(const char *path, const io_frame *frame, float background,
+                          const crv_logger *log)
+{
+    float size = 0.0f;
+    const int32_t steps = io__depth_steps(&frame->depth[0], background, &size);
+    if (steps)
+        io__warn(log, path,
+                 "depth has %d steps of %.3g, as if written in 8 bits: surfaces come out "
+                 "as stairs; write it in 32-bit floats",
+                 steps, (double)size);
+}
+
 crv_depth_format io__settle_format(const char *path, const io_passes_request *request,
                                    io_frame *frame, bool has_normals,
                                    io__depth_facts *settled, const crv_logger *log)
@@ -70,6 +83,8 @@ crv_depth_format io__settle_format(const char *path, const io_passes_request *re
     *settled = facts;
     if (facts.is_half && is_distance(format.encoding))
         smooth_halves(path, request, frame, log);
+    else if (!request->is_later)
+        tell_of_steps(path, frame, limit, log);
     if (find_background && io__largest_is_sky(&facts)) {
         format.background = facts.largest;
         io__info(log, path, "depth from %g on is background: %zu pixels hold just that",

@@ -71,6 +71,11 @@ static bool is_together(const io__pass_names *chosen, const char *name,
     const bool named =
         base || !s.component[0] || io__depth_name_rank(depth, true) < IO__NO_MATCH;
     const size_t prefix = named ? s.prefix : s.prefix + s.layer_length + 1;
+    if (!named && s.view_length) { /* "part.left.Z" goes with "part.left.N.X", too */
+        const size_t part = prefix + s.view_length + 1;
+        if (part == normal->prefix && text_is_same_start(name, depth, part))
+            return true;
+    }
     return prefix == normal->prefix && text_is_same_start(name, depth, prefix)
            && s.view_length == normal->view_length
            && text_is_same_start(s.view, normal->view, s.view_length);
