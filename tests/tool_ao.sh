@@ -66,6 +66,11 @@ good ao plain.exr -o large.exr --radius 300
 grep -q 'warning: plain.exr: the radius 300 is .* times the height of the view' stderr.txt ||
     fail "a radius beyond the view is not told"
 
+# An angle in radians is taken as degrees, but not without a word.
+good ao plain.exr -o radians.exr --normal none --vfov 0.698 --radius 0.01
+grep -q 'warning: --vfov: 0.698 is taken as degrees; 0.698 radians are 39.99 degrees' stderr.txt ||
+    fail "radians are not told"
+
 # Frames: two of a range, an empty one first, which decides no radius.
 pfm shot.0001.pfm 2 2 inf nan 0 -1
 pfm shot.0003.pfm 2 2 1 1 1 1

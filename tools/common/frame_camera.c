@@ -23,6 +23,21 @@ const char *frame_camera_mistake(const frame_camera_settings *s)
     return NULL;
 }
 
+/* A view as narrow as that is rare; angles in radians are not. */
+static void doubt_angle(const char *flag, bool given, double value, report *r)
+{
+    const double largest_rad = 3.2;
+    if (given && value < largest_rad)
+        report_warning(r, "%s: %g is taken as degrees; %g radians are %.4g degrees", flag,
+                       value, value, value / degree);
+}
+
+void frame_camera_doubt(const frame_camera_settings *s, report *r)
+{
+    doubt_angle("--vfov", s->vfov_deg.given, s->vfov_deg.value, r);
+    doubt_angle("--hfov", s->hfov_deg.given, s->hfov_deg.value, r);
+}
+
 void frame_camera_share(const frame_camera_settings *s, io_passes_request *request)
 {
     request->fit_vfov = s->vfov_deg.given && isnan(s->vfov_deg.value);

@@ -26,6 +26,8 @@ typedef struct camera_frame {
 
 /* What is wrong with them, and what to do; NULL: nothing. */
 const char *frame_camera_mistake(const frame_camera_settings *s);
+/* Warns of angles that look like radians. */
+void frame_camera_doubt(const frame_camera_settings *s, report *r);
 
 /* Puts what all frames share into the request. */
 void frame_camera_share(const frame_camera_settings *s, io_passes_request *request);

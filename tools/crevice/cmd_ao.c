@@ -267,6 +267,7 @@ static int run(const void *settings, report *r)
     const int result = check(s, &list, &views, r);
     if (result != EXIT_DONE)
         return result;
+    frame_camera_doubt(&s->camera, r);
     const io_passes_request request = make_request(s);
     return shot_run(s, &request, s->frames ? &list : NULL, &views, r);
 }
