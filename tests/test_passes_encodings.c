@@ -156,8 +156,7 @@ static void test_stairs(void **state)
     for (int i = 0; i < PIXELS; i++)
         planes[0][i] = (float)(isfinite(depth[i]) ? round(10.0 * depth[i]) / 10.0 : 1e10);
     load(write_frame(false, NULL), &request, &frame);
-    assert_non_null(
-        strstr(support_lines.text, " steps of 0.1, as if written in 8 bits"));
+    assert_non_null(strstr(support_lines.text, " steps of 0.1, as if written in 8 bits"));
     io_frame_free(&frame);
     for (int i = 0; i < PIXELS; i++)
         planes[0][i] = (float)(5 + i % W) / 7.0f;
