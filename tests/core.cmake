@@ -13,6 +13,7 @@ crevice_test(test_ao SOURCES test_ao.c LIBS crevice_fixture)
 crevice_test(test_camera SOURCES test_camera.c LIBS crevice_fixture)
 crevice_test(test_filters SOURCES test_filters.c LIBS crevice_fixture)
 crevice_test(test_rows SOURCES test_rows.c LIBS crevice_fixture)
+crevice_test(test_progress SOURCES test_progress.c LIBS crevice_fixture)
 if(NOT EMSCRIPTEN) # its modules have one thread
     crevice_test(test_parallel SOURCES test_parallel.c ${PROJECT_SOURCE_DIR}/src/base/parallel.c)
     target_include_directories(test_parallel PRIVATE ${PROJECT_SOURCE_DIR}/src)

@@ -125,11 +125,15 @@ typedef struct crv_parallel {
     void *user; /* handed to run; not owned */
 } crv_parallel;
 
-/* How far a long run on a Vulkan device is. On the CPU crv_parallel sees every piece. */
+/* How far a run is, and whether it goes on. */
 typedef struct crv_progress {
-    /* Called between the pieces of a run that takes more than one submission to its
-     * queue, on the thread that runs the plan: `done` of `total` pieces, done < total. 0
-     * goes on. All else ends the run with CRV_ERROR_STOPPED; the plan may run again. */
+    /* Called on the thread that runs the plan, between pieces of the run. On the CPU a
+     * piece is a tile of 4000 px or less; a crv_parallel sees the pieces itself, and this is
+     * not called. On a Vulkan device a piece is a submission to its queue.
+     * `done` of `total` pieces of a step are done, done < total. A run on the CPU has up
+     * to three steps: width map, method, filter. On Vulkan it is one. Return 0 to go on.
+     * All else ends the run with CRV_ERROR_STOPPED and the result untouched; the plan may
+     * run again. */
     int32_t (*fn)(void *user, int32_t done, int32_t total);
     void *user; /* handed to fn; not owned */
 } crv_progress;

@@ -61,7 +61,7 @@ typedef struct crv_context_desc {
     int32_t exact;
     crv_device device;     /* default CRV_DEVICE_CPU */
     int32_t device_index;  /* Vulkan: as crv_vulkan_device_info() counts; default 0 */
-    crv_progress progress; /* default: nobody is told */
+    crv_progress progress; /* of runs; default: nobody is told, runs go to their end */
 } crv_context_desc;
 
 /* Sets the defaults. Pass sizeof *desc as struct_size (base.h). Errors: INVALID_ARGUMENT.
@@ -151,9 +151,9 @@ CRV_API crv_status crv_plan_set_options(crv_plan *plan, const crv_options *optio
  * Allocates nothing. The same input gives the same bits for any number of threads.
  *
  * Errors: INVALID_ARGUMENT; NOT_READY if the G-buffer lacks its camera or a depth layer;
- * on a Vulkan device UNSUPPORTED if the G-buffer has a height field or an implicit
- * surface that the options ask for, DEVICE if its driver fails, and STOPPED if
- * crv_context_desc.progress says so.
+ * STOPPED if crv_context_desc.progress ended the run; on a Vulkan device UNSUPPORTED if
+ * the G-buffer has a height field or an implicit surface that the options ask for, and
+ * DEVICE if its driver fails.
  */
 CRV_API crv_status crv_plan_run(crv_plan *plan, crv_gbuffer *gbuffer,
                                 const crv_image *result);

@@ -29,13 +29,26 @@
  *     crv_gbuffer_set_depth(gbuffer, 0, &depth_image, NULL);
  *     crv_plan_run(plan, gbuffer, &result);
  *
+ * A renderer has a projection matrix and a depth buffer: standard, reversed, infinite,
+ * jittered. They are given so:
+ *
+ *     crv_camera_from_projection(&camera, matrix, layout, width, height, NULL);
+ *     crv_depth_format_from_projection(&format, matrix, layout, clip_range, NULL);
+ *     crv_gbuffer_set_camera(gbuffer, &camera);
+ *     crv_gbuffer_set_depth(gbuffer, 0, &depth_image, &format);
+ *
+ * After a resize make a new G-buffer and a new plan. Where things are: methods, filters
+ * and options in options.h; bent normals: crv_plan_run_result(), context.h; a renderer's
+ * own Vulkan device: vulkan.h, which this file does not include.
+ *
  * Only what the depth layers show occludes. Surfaces that are hidden behind the first
  * one, or outside of the image, do not, unless a further layer or a guard band has them.
  *
  * Every call returns a crv_status; check it. The logger gets the reason for a failure as
  * one line. Memory is taken when objects are made and when a G-buffer first gets a kind
  * of data, never in crv_plan_run(). A context and everything made with it serve one
- * thread at a time; a call works in parallel inside. There is no global state.
+ * thread at a time; a call works in parallel inside. A host may end a run that takes long
+ * (crv_progress, base.h). There is no global state.
  */
 #ifndef CREVICE_H
 #define CREVICE_H

@@ -2,6 +2,9 @@
 /*
  * options.h: methods, filters, and every number that steers them.
  *
+ * A method is named by a text: "hbao". crv_method_at() lists all of them; docs/methods.md
+ * says which to choose, with errors and times.
+ *
  * One table describes the options. Defaults, checks, the command line and its help come
  * from it. A host's user interface can list options, methods and filters by the functions
  * below. Everything here is thread-safe: the tables are constant.
@@ -138,8 +141,8 @@ CRV_API const crv_filter *crv_filter_find(const char *name);
 
 /*
  * All options of a run. Begin with crv_options_init(): a zeroed struct is not valid. The
- * option table (crv_option_at()) has unit, range, default and help of each. Options of
- * yes or no are int32_t, 0 or 1. crv_option_applies() tells which options a method reads.
+ * option table (crv_option_at()) has unit, range, default and help of each. Boolean
+ * options are int32_t, 0 or 1. crv_option_applies() tells which options a method reads.
  */
 typedef struct crv_options {
     size_t struct_size; /* set by crv_options_init() */

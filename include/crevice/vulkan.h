@@ -14,6 +14,10 @@
  *   frame.camera = ...; frame.depth[0].view = ...; frame.result_view = ...;
  *   crv_vulkan_pass_record(pass, command_buffer, &frame);
  *
+ * A smaller picture needs no new pass: crv_vulkan_frame has a size of its own. For a
+ * larger one make a new pass, and destroy the old one when none of its recordings is
+ * pending.
+ *
  * To run plans on a device that Crevice creates itself, set crv_context_desc.device
  * (context.h): that needs no Vulkan headers. Plans (crv_plan_run()) work on contexts made
  * here as well: they submit to the queue and wait.
@@ -155,8 +159,8 @@ typedef enum crv_vulkan_depth_layout {
 /*
  * Depth layout and half floats of the plans that are created from now on
  * (crv_plan_create()). Passes have both in their desc. Defaults: LINEAR, HALF_OFF. LEVELS
- * begin at 16 px. Errors: INVALID_ARGUMENT;
- * UNSUPPORTED if the context has no Vulkan device.
+ * begin at 16 px. Errors: INVALID_ARGUMENT; UNSUPPORTED if the context has no Vulkan
+ * device.
  */
 CRV_API crv_status crv_vulkan_context_set_plans(crv_context *context,
                                                 crv_vulkan_depth_layout depth_layout,

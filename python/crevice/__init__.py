@@ -10,7 +10,7 @@ warnings go to `warnings`, what was chosen goes to the logger "crevice" of `logg
 
 Everything may be called from several threads. Calls that share a Context take turns;
 ao() makes a context of its own, so calls of it run at the same time. The interpreter's
-lock is released while Crevice computes.
+lock is released while Crevice computes. Ctrl-C ends a run: KeyboardInterrupt.
 """
 import dataclasses
 import logging

@@ -2,11 +2,14 @@
 /* crevice.Context: hooks, threads and instruction set. */
 #include "module.h"
 
+#include <math.h>
 #include <string.h>
+#include <time.h>
 
 void context_enter(ContextObject *c)
 {
-    Py_BEGIN_ALLOW_THREADS PyThread_acquire_lock(c->lock, WAIT_LOCK);
+    Py_BEGIN_ALLOW_THREADS
+    PyThread_acquire_lock(c->lock, WAIT_LOCK);
     Py_END_ALLOW_THREADS
 }
 
@@ -16,6 +19,34 @@ int context_leave(ContextObject *c, crv_status status)
     c->lines.count = 0;
     PyThread_release_lock(c->lock);
     return messages_deliver(&lines, status);
+}
+
+/* Seconds between two looks for signals: taking the interpreter's lock may mean to wait
+ * for another thread. */
+#define SIGNALS_S 0.05
+
+static double now_s(void)
+{
+    struct timespec t;
+    timespec_get(&t, TIME_UTC);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* Between pieces of a run, which holds no interpreter lock. Signals are handled by
+ * Python's main thread alone; in others this finds none. An exception of the handler
+ * (KeyboardInterrupt) stays set for the caller of the run. */
+static int32_t handle_signals(void *user, int32_t done, int32_t total)
+{
+    (void)done, (void)total;
+    ContextObject *c = user;
+    const double now = now_s();
+    if (fabs(now - c->checked_s) < SIGNALS_S)
+        return 0;
+    c->checked_s = now;
+    const PyGILState_STATE state = PyGILState_Ensure();
+    const int interrupted = PyErr_CheckSignals();
+    PyGILState_Release(state);
+    return interrupted;
 }
 
 /* The bit of a named instruction set; 0 for NULL, -1 with an exception. */
@@ -52,13 +83,15 @@ static PyObject *context_new(PyTypeObject *type, PyObject *args, PyObject *kwarg
         return NULL;
     c->lock = PyThread_allocate_lock();
     desc.logger = messages_logger(&c->lines);
+    desc.progress = (crv_progress){.fn = handle_signals, .user = c};
     desc.threads = threads;
     desc.exact = exact;
     desc.device = (crv_device)kind;
     desc.device_index = index;
     crv_status status = CRV_ERROR_OUT_OF_MEMORY;
     if (c->lock) {
-        Py_BEGIN_ALLOW_THREADS status = crv_context_create(&desc, &c->context);
+        Py_BEGIN_ALLOW_THREADS
+        status = crv_context_create(&desc, &c->context);
         Py_END_ALLOW_THREADS
     }
     if (messages_deliver(&c->lines, status) == 0)

@@ -96,12 +96,14 @@ static PyObject *set_depth(PyObject *self, PyObject *args, PyObject *kwargs)
     float *owned = NULL;
     context_enter(g->owner);
     crv_status status;
-    Py_BEGIN_ALLOW_THREADS const crv_logger logger = messages_logger(&g->owner->lines);
+    Py_BEGIN_ALLOW_THREADS
+    const crv_logger logger = messages_logger(&g->owner->lines);
     status = array_floats(&a, &image, &owned, &logger);
     if (status == CRV_OK)
         status = crv_gbuffer_set_depth(g->gbuffer, layer, &image, &format);
     PyMem_RawFree(owned);
-    Py_END_ALLOW_THREADS array_release(&a);
+    Py_END_ALLOW_THREADS
+    array_release(&a);
     return none_or_null(context_leave(g->owner, status));
 }
 
@@ -129,12 +131,14 @@ static PyObject *set_normals(PyObject *self, PyObject *args, PyObject *kwargs)
     float *owned = NULL;
     context_enter(g->owner);
     crv_status status;
-    Py_BEGIN_ALLOW_THREADS const crv_logger logger = messages_logger(&g->owner->lines);
+    Py_BEGIN_ALLOW_THREADS
+    const crv_logger logger = messages_logger(&g->owner->lines);
     status = array_floats(&a, &image, &owned, &logger);
     if (status == CRV_OK)
         status = crv_gbuffer_set_normals(g->gbuffer, &image, (crv_normal_space)kind);
     PyMem_RawFree(owned);
-    Py_END_ALLOW_THREADS array_release(&a);
+    Py_END_ALLOW_THREADS
+    array_release(&a);
     return none_or_null(context_leave(g->owner, status));
 }
 
@@ -148,10 +152,11 @@ static PyObject *get(GBufferObject *g, PyObject *object, const char *name, int c
         return NULL;
     context_enter(g->owner);
     crv_status status;
-    Py_BEGIN_ALLOW_THREADS status = channels == 1
-                                        ? crv_gbuffer_get_depth(g->gbuffer, layer, &image)
-                                        : crv_gbuffer_get_normals(g->gbuffer, &image);
-    Py_END_ALLOW_THREADS array_release(&a);
+    Py_BEGIN_ALLOW_THREADS
+    status = channels == 1 ? crv_gbuffer_get_depth(g->gbuffer, layer, &image)
+                           : crv_gbuffer_get_normals(g->gbuffer, &image);
+    Py_END_ALLOW_THREADS
+    array_release(&a);
     return none_or_null(context_leave(g->owner, status));
 }
 

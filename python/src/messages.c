@@ -97,13 +97,14 @@ static int log_info(const char *text)
     return done ? 0 : -1;
 }
 
+/* After a signal its handler's exception is set, and what was logged does not count. */
 int messages_deliver(messages *lines, crv_status status)
 {
     messages taken = *lines;
     const char *reason = NULL;
-    int result = 0;
+    int result = status == CRV_ERROR_STOPPED ? -1 : 0;
     lines->count = 0;
-    for (int i = 0; i < taken.count; i++) {
+    for (int i = 0; i < taken.count && status != CRV_ERROR_STOPPED; i++) {
         const struct message *m = &taken.list[i];
         if (m->level == CRV_LOG_ERROR)
             reason = m->text;

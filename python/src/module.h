@@ -25,7 +25,7 @@ crv_logger messages_logger(messages *to);
 
 /* Hands the lines over and empties the list: warnings to `warnings`, the rest to
  * `logging`, errors to an exception if status is not CRV_OK. Returns 0, or -1 with an
- * exception set. */
+ * exception set: that of the signal handler if a signal ended the run. */
 int messages_deliver(messages *lines, crv_status status);
 
 /* Adds the exception types to the module; -1 with an exception. */
@@ -37,6 +37,7 @@ typedef struct ContextObject {
     PyObject_HEAD crv_context *context;
     PyThread_type_lock lock;
     messages lines;
+    double checked_s; /* when a run last looked for signals */
 } ContextObject;
 
 typedef struct GBufferObject {

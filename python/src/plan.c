@@ -22,9 +22,11 @@ static PyObject *plan_new(PyTypeObject *type, PyObject *args, PyObject *kwargs)
     p->options = options;
     context_enter(p->owner);
     crv_status status;
-    Py_BEGIN_ALLOW_THREADS status =
-        crv_plan_create(p->owner->context, &options, &p->desc, &p->plan);
-    Py_END_ALLOW_THREADS if (context_leave(p->owner, status) == 0) return (PyObject *)p;
+    Py_BEGIN_ALLOW_THREADS
+    status = crv_plan_create(p->owner->context, &options, &p->desc, &p->plan);
+    Py_END_ALLOW_THREADS
+    if (context_leave(p->owner, status) == 0)
+        return (PyObject *)p;
     Py_DECREF(p);
     return NULL;
 }
@@ -47,9 +49,10 @@ static int run_result(const PlanObject *p, const GBufferObject *gbuffer,
 {
     context_enter(p->owner);
     crv_status status;
-    Py_BEGIN_ALLOW_THREADS status =
-        crv_plan_run_result(p->plan, gbuffer->gbuffer, result);
-    Py_END_ALLOW_THREADS return context_leave(p->owner, status);
+    Py_BEGIN_ALLOW_THREADS
+    status = crv_plan_run_result(p->plan, gbuffer->gbuffer, result);
+    Py_END_ALLOW_THREADS
+    return context_leave(p->owner, status);
 }
 
 static PyObject *plan_run(PyObject *self, PyObject *args, PyObject *kwargs)
@@ -95,8 +98,11 @@ static PyObject *plan_set_options(PyObject *self, PyObject *values)
         return NULL;
     context_enter(p->owner);
     crv_status status;
-    Py_BEGIN_ALLOW_THREADS status = crv_plan_set_options(p->plan, &options);
-    Py_END_ALLOW_THREADS if (context_leave(p->owner, status)) return NULL;
+    Py_BEGIN_ALLOW_THREADS
+    status = crv_plan_set_options(p->plan, &options);
+    Py_END_ALLOW_THREADS
+    if (context_leave(p->owner, status))
+        return NULL;
     p->options = options;
     Py_RETURN_NONE;
 }

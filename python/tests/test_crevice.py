@@ -8,6 +8,7 @@ import gc
 import logging
 import math
 import os
+import signal
 import subprocess
 import sys
 import threading
@@ -275,6 +276,38 @@ def test_threads(plain):
         worker.join()
     assert len(results) == 80
     assert all(np.array_equal(result, plain) for result in results)
+
+
+class Interrupt(Exception):
+    """What the handler of the test's signal raises, as Ctrl-C raises KeyboardInterrupt."""
+
+
+def test_a_signal_ends_a_run():
+    def handler(number, frame):
+        raise Interrupt
+
+    depth = np.tile(pit(), (8, 8))
+    context = crevice.Context(threads=1)
+    gbuffer = crevice.GBuffer(context, 8 * COLUMNS, 8 * ROWS)
+    gbuffer.set_camera(crevice.Camera.perspective(8 * COLUMNS, 8 * ROWS, 60))
+    gbuffer.set_depth(depth)
+    # 1.6e9 steps, some ten seconds; it looks for signals after each tile of 3e7 steps.
+    long = crevice.Plan(gbuffer, method="raymarch",
+                        options={"radius": "0.9", "directions": "16", "normal_rays": "8",
+                                 "steps": "64", "filter": "none"})
+    out = np.zeros(depth.shape, np.float32)
+    before = signal.signal(signal.SIGALRM, handler)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.2)
+        with pytest.raises(Interrupt):
+            long.run(gbuffer, out)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+    assert not out.any()
+    usual = crevice.Plan(gbuffer, options={"radius": "0.9"})
+    expected = crevice.ao(depth, vfov=60, radius=0.9)
+    assert np.array_equal(usual.run(gbuffer, out), expected)
 
 
 def test_no_references_are_lost():

@@ -6,6 +6,63 @@
 #endif
 #include "base/parallel.h"
 
+/* A number that threads share. */
+#if defined(__EMSCRIPTEN__)
+/* There is one thread. */
+#elif defined(_WIN32)
+
+#include <windows.h>
+
+typedef volatile LONG counter;
+
+static uint32_t take(counter *c)
+{
+    return (uint32_t)InterlockedIncrement(c) - 1;
+}
+
+static uint32_t peek(counter *c)
+{
+    return (uint32_t)InterlockedCompareExchange(c, 0, 0);
+}
+
+#else
+
+#include <stdatomic.h>
+
+typedef atomic_uint counter;
+
+static uint32_t take(counter *c)
+{
+    return atomic_fetch_add(c, 1);
+}
+
+static uint32_t peek(counter *c)
+{
+    return atomic_load(c);
+}
+
+#endif
+
+/* Tells the host after task i; false if it ends the loop. */
+static bool goes_on(const crv_progress *progress, uint32_t i, uint32_t count)
+{
+    return !progress || !progress->fn || i + 1 >= count || i >= INT32_MAX
+           || progress->fn(progress->user, (int32_t)i + 1, (int32_t)count) == 0;
+}
+
+#if defined(_OPENMP) || defined(__EMSCRIPTEN__)
+static bool run_alone(const crv_progress *progress, uint32_t count,
+                      void (*task)(void *data, uint32_t index), void *data)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        task(data, i);
+        if (!goes_on(progress, i, count))
+            return false;
+    }
+    return true;
+}
+#endif
+
 #if defined(_OPENMP)
 
 #include <omp.h>
@@ -19,38 +76,36 @@ static int default_team(void)
     return chosen < most ? chosen : most;
 }
 
-static void run_team(int32_t threads, uint32_t count,
+/* Tasks are handed out in order: those before the caller's last one are done or begun. */
+static bool run_team(int32_t threads, const crv_progress *progress, uint32_t count,
                      void (*task)(void *data, uint32_t index), void *data)
 {
     const int team = threads > 0 ? threads : default_team();
-    if (team > 1 && count > 1) {
-        /* Rows of a picture differ in cost by a factor of ten (sky against grass). Some
-         * compilers have OpenMP 2.0, whose index is signed and declared before. */
-        int64_t i;
+    if (team < 2 || count < 2)
+        return run_alone(progress, count, task, data);
+    counter ended = 0;
+    /* Rows of a picture differ in cost by a factor of ten (sky against grass). Some
+     * compilers have OpenMP 2.0, whose index is signed and declared before. */
+    int64_t i;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(team)
-        for (i = 0; i < (int64_t)count; i++)
-            task(data, (uint32_t)i);
-        return;
+    for (i = 0; i < (int64_t)count; i++) {
+        if (peek(&ended) > 0)
+            continue;
+        task(data, (uint32_t)i);
+        if (omp_get_thread_num() == 0 && !goes_on(progress, (uint32_t)i, count))
+            take(&ended);
     }
-    for (uint32_t i = 0; i < count; i++)
-        task(data, i);
+    return peek(&ended) == 0;
 }
 
 #elif !defined(__EMSCRIPTEN__)
 
-/* What differs between systems: a counter that threads share, and threads. */
+/* What differs between systems: threads. */
 #if defined(_WIN32)
 
 #include <process.h>
-#include <windows.h>
 
-typedef volatile LONG counter;
 typedef HANDLE thread;
-
-static uint32_t take(counter *next)
-{
-    return (uint32_t)InterlockedIncrement(next) - 1;
-}
 
 static bool start(thread *out, unsigned(__stdcall *run)(void *), void *argument)
 {
@@ -77,16 +132,9 @@ static int64_t processors(void)
 #else
 
 #include <pthread.h>
-#include <stdatomic.h>
 #include <unistd.h>
 
-typedef atomic_uint counter;
 typedef pthread_t thread;
-
-static uint32_t take(counter *next)
-{
-    return atomic_fetch_add(next, 1);
-}
 
 static bool start(thread *out, void *(*run)(void *), void *argument)
 {
@@ -114,14 +162,22 @@ typedef struct team {
     uint32_t count;
     void (*task)(void *data, uint32_t index);
     void *data;
-    counter next;
+    counter next, ended;
 } team;
 
-static THREAD_FUNCTION work(void *argument)
+static void work(team *t, const crv_progress *progress)
 {
-    team *t = argument;
-    for (uint32_t i = take(&t->next); i < t->count; i = take(&t->next))
+    for (uint32_t i = take(&t->next); i < t->count && peek(&t->ended) == 0;
+         i = take(&t->next)) {
         t->task(t->data, i);
+        if (!goes_on(progress, i, t->count))
+            take(&t->ended);
+    }
+}
+
+static THREAD_FUNCTION work_beside(void *argument)
+{
+    work(argument, NULL);
     return THREAD_DONE;
 }
 
@@ -132,29 +188,29 @@ static int32_t default_team(void)
 }
 
 /* The calling thread works as well, so that all is done even if no other can be made. */
-static void run_team(int32_t threads, uint32_t count,
+static bool run_team(int32_t threads, const crv_progress *progress, uint32_t count,
                      void (*task)(void *data, uint32_t index), void *data)
 {
-    team t = {.count = count, .task = task, .data = data, .next = 0};
+    team t = {.count = count, .task = task, .data = data, .next = 0, .ended = 0};
     thread others[MOST_THREADS];
     const int32_t wanted = threads > 0 ? threads : default_team();
     int32_t made = 0;
     while (made < wanted - 1 && (uint32_t)made + 1 < count && made < MOST_THREADS
-           && start(&others[made], work, &t))
+           && start(&others[made], work_beside, &t))
         made++;
-    work(&t);
+    work(&t, progress);
     for (int32_t i = 0; i < made; i++)
         join(others[i]);
+    return peek(&t.ended) == 0;
 }
 
 #else
 
-static void run_team(int32_t threads, uint32_t count,
+static bool run_team(int32_t threads, const crv_progress *progress, uint32_t count,
                      void (*task)(void *data, uint32_t index), void *data)
 {
     (void)threads;
-    for (uint32_t i = 0; i < count; i++)
-        task(data, i);
+    return run_alone(progress, count, task, data);
 }
 
 #endif
@@ -168,11 +224,12 @@ bool crv__parallel_is_openmp(void)
 #endif
 }
 
-void crv__parallel_for(const crv_parallel *hook, int32_t threads, uint32_t count,
+bool crv__parallel_for(const crv_parallel *hook, int32_t threads,
+                       const crv_progress *progress, uint32_t count,
                        void (*task)(void *data, uint32_t index), void *data)
 {
-    if (hook->run)
-        hook->run(hook->user, count, task, data);
-    else
-        run_team(threads, count, task, data);
+    if (!hook->run)
+        return run_team(threads, progress, count, task, data);
+    hook->run(hook->user, count, task, data);
+    return true;
 }

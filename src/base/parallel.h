@@ -8,8 +8,11 @@
 
 /* Calls task(data, i) for every i in [0, count) through the host's hook, or with
  * `threads` threads (0: a sensible number) of OpenMP or, without it, of POSIX; else on
- * this thread. */
-void crv__parallel_for(const crv_parallel *hook, int32_t threads, uint32_t count,
+ * this thread. Without a hook it calls `progress` (NULL: nobody) on this thread between
+ * the tasks that this thread runs. False if that ended the loop: some tasks are left
+ * out. */
+bool crv__parallel_for(const crv_parallel *hook, int32_t threads,
+                       const crv_progress *progress, uint32_t count,
                        void (*task)(void *data, uint32_t index), void *data);
 
 /* Whether OpenMP was built in. */

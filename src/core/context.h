@@ -32,7 +32,16 @@ crv_status crv__context_create_bare(const crv_context_desc *desc, crv_context **
 static inline void crv__run_parallel(const crv_context *context, uint32_t count,
                                      void (*task)(void *data, uint32_t index), void *data)
 {
-    crv__parallel_for(&context->parallel, context->threads, count, task, data);
+    crv__parallel_for(&context->parallel, context->threads, NULL, count, task, data);
+}
+
+/* The same for a step of a run. False if the host's crv_progress ended it: some tasks are
+ * left out. */
+static inline bool crv__run_step(const crv_context *context, uint32_t count,
+                                 void (*task)(void *data, uint32_t index), void *data)
+{
+    return crv__parallel_for(&context->parallel, context->threads, &context->progress,
+                             count, task, data);
 }
 
 /* The same for rows 0 to height - 1 of a picture, with groups of them as tasks, so that

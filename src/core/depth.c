@@ -353,7 +353,7 @@ crv_status crv_depth_convert(const crv_const_image *depth, const crv_depth_forma
         status = crv__depth_map_init(&job.map, logger, camera, format);
     if (status)
         return status;
-    crv__parallel_for(&(crv_parallel){.run = NULL}, 0, (uint32_t)height,
+    crv__parallel_for(&(crv_parallel){.run = NULL}, 0, NULL, (uint32_t)height,
                       convert_image_row, &job);
     return CRV_OK;
 }

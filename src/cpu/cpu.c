@@ -180,7 +180,8 @@ static void run_tile(void *data, uint32_t index)
         t->row(t, x0, x1, y);
 }
 
-static void run_tiles(tiles *t)
+/* Loops of a run return false if the host's crv_progress ended them. */
+static bool run_tiles(tiles *t)
 {
     t->area = crv__setup_rectangle(t->work->setup);
     t->width = TILE_WIDTH;
@@ -189,8 +190,8 @@ static void run_tiles(tiles *t)
         choose_tile(t, 1, CRV__GROUP_SPAN, 1);
     t->columns = (t->area.width + t->width - 1) / t->width;
     t->rows = (t->area.height + t->height - 1) / t->height;
-    crv__run_parallel(t->work->setup->context, (uint32_t)t->columns * (uint32_t)t->rows,
-                      run_tile, t);
+    return crv__run_step(t->work->setup->context,
+                         (uint32_t)t->columns * (uint32_t)t->rows, run_tile, t);
 }
 
 /* What a plan is computed with: kernels where there are, else NULL. */
@@ -263,7 +264,7 @@ static void run_group_tile(void *data, uint32_t index)
     }
 }
 
-static void run_group_tiles(tiles *t)
+static bool run_group_tiles(tiles *t)
 {
     const crv__plane *out = &t->out->accessibility;
     const int32_t left = (out->x0 + t->di->left) / CRV__GROUP_SPAN;
@@ -274,8 +275,8 @@ static void run_group_tiles(tiles *t)
     choose_tile(t, CRV__GROUP_SPAN, 1, CRV__PHASES);
     t->columns = (end - left + t->width - 1) / t->width;
     t->rows = (out->height + t->height - 1) / t->height;
-    crv__run_parallel(t->work->setup->context, (uint32_t)t->columns * (uint32_t)t->rows,
-                      run_group_tile, t);
+    return crv__run_step(t->work->setup->context,
+                         (uint32_t)t->columns * (uint32_t)t->rows, run_group_tile, t);
 }
 
 typedef struct map_job {
@@ -306,7 +307,7 @@ static void map_row(void *data, uint32_t index)
         row[x] = job->map->value(job->frame, x, y);
 }
 
-static void make_map(const crv__work *work)
+static bool make_map(const crv__work *work)
 {
     const crv_context *context = work->setup->context;
     const crv__plane *out = work->frame->map;
@@ -317,13 +318,12 @@ static void make_map(const crv__work *work)
     const int32_t columns = (out->width - 1) / CRV__MAP_TILE_WIDTH + 1,
                   rows = (out->height - 1) / CRV__MAP_TILE_HEIGHT + 1;
     if (job.kernel)
-        crv__run_parallel(context, (uint32_t)columns * (uint32_t)rows, run_map_tile,
-                          &job);
-    else
-        crv__run_rows(context, out->height, map_row, &job);
+        return crv__run_step(context, (uint32_t)columns * (uint32_t)rows, run_map_tile,
+                             &job);
+    return crv__run_step(context, (uint32_t)out->height, map_row, &job);
 }
 
-static void estimate(const crv__work *work, const crv__picture *to)
+static bool estimate(const crv__work *work, const crv__picture *to)
 {
     const plan_state *state = state_of(work);
     tiles t = {.work = work,
@@ -332,18 +332,16 @@ static void estimate(const crv__work *work, const crv__picture *to)
                .bent_kernel = state->bent,
                .out = to,
                .row = estimate_row};
-    if (work->frame->map)
-        make_map(work);
-    if (state->di) {
-        t.di = crv__deinterleaved_prepare(state->di, work->setup, work->frame);
-        t.group_kernel = crv__deinterleaved_kernel_of(state->di, to->bent[0].data);
-        run_group_tiles(&t);
-    } else {
-        run_tiles(&t);
-    }
+    if (work->frame->map && !make_map(work))
+        return false;
+    if (!state->di)
+        return run_tiles(&t);
+    t.di = crv__deinterleaved_prepare(state->di, work->setup, work->frame);
+    t.group_kernel = crv__deinterleaved_kernel_of(state->di, to->bent[0].data);
+    return run_group_tiles(&t);
 }
 
-static void filter_pass(const crv__work *work, int32_t pass, const crv__picture *input,
+static bool filter_pass(const crv__work *work, int32_t pass, const crv__picture *input,
                         const crv__picture *out)
 {
     tiles t = {.work = work,
@@ -352,7 +350,7 @@ static void filter_pass(const crv__work *work, int32_t pass, const crv__picture 
                .input = input,
                .out = out,
                .row = filter_row};
-    run_tiles(&t);
+    return run_tiles(&t);
 }
 
 /* What is filtered of bent normals is how they deviate from the surface's normals: the
@@ -452,7 +450,7 @@ static crv__plane shown_part(const crv__work *work, const crv__plane *plane)
 }
 
 /* All passes at once, from pictures[0] to pictures[1]. */
-static void filter_with(const crv__work *work, crv__filter_kernel kernel,
+static bool filter_with(const crv__work *work, crv__filter_kernel kernel,
                         const crv__picture pictures[2])
 {
     crv__picture shown[2] = {pictures[0], pictures[1]};
@@ -464,8 +462,8 @@ static void filter_with(const crv__work *work, crv__filter_kernel kernel,
         .work = work, .filter_kernel = kernel, .input = &shown[0], .out = &shown[1]};
     t.columns = (width + CRV__FILTER_TILE_WIDTH - 1) / CRV__FILTER_TILE_WIDTH;
     const int32_t rows = (height + CRV__FILTER_TILE_HEIGHT - 1) / CRV__FILTER_TILE_HEIGHT;
-    crv__run_parallel(work->setup->context, (uint32_t)t.columns * (uint32_t)rows,
-                      run_filter_tile, &t);
+    return crv__run_step(work->setup->context, (uint32_t)t.columns * (uint32_t)rows,
+                         run_filter_tile, &t);
 }
 
 /* ---- plans ---- */
@@ -552,13 +550,17 @@ static crv_status run(const crv__work *given, const crv__picture given_pictures[
     const crv__filter *filter = work.setup->filter;
     const crv__filter_kernel kernel = state_of(&work)->filter;
     const int32_t passes = filter && !kernel ? filter->passes : 0;
-    if (!work.filter_only)
-        estimate(&work, &pictures[0]);
+    bool goes_on = work.filter_only || estimate(&work, &pictures[0]);
+    if (!goes_on)
+        return CRV_ERROR_STOPPED;
     run_deviations(&work, &pictures[0], deviate_row);
     if (kernel)
-        filter_with(&work, kernel, pictures);
-    for (int32_t pass = 0; pass < passes; pass++)
-        filter_pass(&work, pass, &pictures[pass % 2], &pictures[(pass + 1) % 2]);
+        goes_on = filter_with(&work, kernel, pictures);
+    for (int32_t pass = 0; pass < passes && goes_on; pass++)
+        goes_on =
+            filter_pass(&work, pass, &pictures[pass % 2], &pictures[(pass + 1) % 2]);
+    if (!goes_on)
+        return CRV_ERROR_STOPPED;
     *result = pictures[kernel ? 1 : passes % 2];
     run_deviations(&work, result, restore_row);
     return CRV_OK;
