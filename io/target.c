@@ -53,12 +53,13 @@ static int check_target(const char *target, const char *path, const crv_logger *
     if (!folder)
         return fail_memory(log, path);
     int result = 0;
-    if (!file_look(folder, &facts))
-        result = io__fail(log, path, "its folder cannot be used (%s); make it first",
-                          strerror(errno));
-    else if (!folder_may_be_written(folder))
+    if (!folder_may_be_written(folder))
         result =
-            io__fail(log, path, "its folder may not be written; choose another place");
+            file_look(folder, &facts)
+                ? io__fail(log, path,
+                           "its folder may not be written; choose another place")
+                : io__fail(log, path, "its folder cannot be used (%s); make it first",
+                           strerror(errno));
     free(folder);
     return result;
 }
