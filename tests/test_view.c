@@ -274,6 +274,37 @@ static void test_engine_makes_what_changed(void **state)
     shown_free(&third);
 }
 
+/* A run of seconds is left off if another wish waits, a short one comes to its end; the
+ * picture that is made then is none of a run that was left off. */
+static void test_overtaken_runs(void **state)
+{
+    (void)state;
+    bench b;
+    shown s, again;
+    open_bench(&b, "builtin:courtyard");
+    b.wish.width = 512; /* eight tiles */
+    b.wish.height = 64;
+    render(&b, &s);
+    b.engine.overtaken = true;
+    b.wish.half[0].options.radius = 0.31f;
+    render(&b, &again); /* milliseconds */
+    shown_free(&again);
+    b.wish.half[0].options = options_of("raymarch");
+    b.wish.half[0].options.directions = 64; /* some 1e9 steps a tile, half a second */
+    b.wish.half[0].options.normal_rays = 32;
+    b.wish.half[0].options.steps = 128;
+    assert_false(engine_render(&b.engine, &b.wish, &again));
+    b.engine.overtaken = false;
+    b.wish.half[0].options = b.wish.half[1].options;
+    render(&b, &again);
+    assert_memory_equal(again.half[0].accessibility, again.half[1].accessibility,
+                        sizeof(float) * 512 * 64);
+    assert_memory_equal(again.half[0].pixels, s.half[0].pixels, 4 * 512 * 64);
+    shown_free(&s);
+    shown_free(&again);
+    close_bench(&b);
+}
+
 /* Grey is the PNG's grey, no difference is the heat map's white, lit is dark where
  * closed. */
 static void test_looks(void **state)
@@ -543,6 +574,7 @@ int main(void)
         cmocka_unit_test(test_tooltips),
         cmocka_unit_test(test_engine_keeps_nothing_stale),
         cmocka_unit_test(test_engine_makes_what_changed),
+        cmocka_unit_test(test_overtaken_runs),
         cmocka_unit_test(test_looks),
         cmocka_unit_test(test_lit_frame),
         cmocka_unit_test(test_moving_is_coarse),

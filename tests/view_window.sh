@@ -258,6 +258,9 @@ bad 2 'frames' view 'shot.#.exr'
 bad 2 'did you mean' view builtin:corner --methd gtao
 echo 'as left lit' >lit.txt
 bad 1 'lit.txt:1: as left lit: ' view frame.exr --script lit.txt
+echo 'size 4000 3000' >huge.txt
+bad 1 'huge.txt:1: size 4000 3000: the picture stays at .*, the screen is 1600 x 1000' \
+    view builtin:corner --script huge.txt
 echo dance >dance.txt
 bad 1 'dance.txt:1: dance: no such action' view builtin:corner --script dance.txt
 bad 1 'no.txt: cannot be read' view builtin:corner --script no.txt

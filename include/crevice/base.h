@@ -128,8 +128,8 @@ typedef struct crv_parallel {
 /* How far a run is, and whether it goes on. */
 typedef struct crv_progress {
     /* Called on the thread that runs the plan, between pieces of the run. On the CPU a
-     * piece is a tile of 4000 px or less; a crv_parallel sees the pieces itself, and this is
-     * not called. On a Vulkan device a piece is a submission to its queue.
+     * piece is a tile of 4000 px or less; not called if a crv_parallel runs the loops: it
+     * sees the pieces itself. On a Vulkan device a piece is a submission to its queue.
      * `done` of `total` pieces of a step are done, done < total. A run on the CPU has up
      * to three steps: width map, method, filter. On Vulkan it is one. Return 0 to go on.
      * All else ends the run with CRV_ERROR_STOPPED and the result untouched; the plan may

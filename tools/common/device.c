@@ -102,8 +102,8 @@ static crv_status tune_plans(const common_settings *common, crv_context *context
 #endif
 }
 
-static int make_context(const common_settings *common, crv_context_desc *desc, report *r,
-                        crv_context **out)
+int device_context_in(const common_settings *common, crv_context_desc *desc, report *r,
+                      crv_context **out)
 {
     desc->threads = common->threads.value;
     desc->exact = common->exact;
@@ -130,18 +130,5 @@ int device_context(const common_settings *common, report *r, progress *run,
     desc.logger = r->logger;
     desc.progress = progress_runs(run);
     desc.parallel = progress_loops(r, common->threads.value);
-    return make_context(common, &desc, r, out);
-}
-
-int device_context_in(const common_settings *common, const crv_logger *logger,
-                      const crv_allocator *allocator, bool tells, report *r,
-                      crv_context **out)
-{
-    crv_context_desc desc;
-    crv_context_desc_init(&desc, sizeof desc);
-    desc.logger = *logger;
-    desc.allocator = *allocator;
-    if (tells)
-        desc.parallel = progress_loops(r, common->threads.value);
-    return make_context(common, &desc, r, out);
+    return device_context_in(common, &desc, r, out);
 }

@@ -12,10 +12,9 @@
 int device_context(const common_settings *common, report *r, progress *run,
                    crv_context **out);
 
-/* The same with this logger and memory from this allocator; unless it tells, with the
- * library's own loops, for timing. */
-int device_context_in(const common_settings *common, const crv_logger *logger,
-                      const crv_allocator *allocator, bool tells, report *r,
+/* The same with the hooks of a description that crv_context_desc_init() began; the rest
+ * of it is filled in. */
+int device_context_in(const common_settings *common, crv_context_desc *desc, report *r,
                       crv_context **out);
 
 /* Whether --device chooses the CPU, the only one to which --isa and --exact apply. */

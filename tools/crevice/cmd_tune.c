@@ -336,15 +336,16 @@ static int run(const void *settings, report *r)
     const tune_settings *s = settings;
     tune_work w = {.s = s, .r = r, .start = s->in.view.common.options};
     voice log = {.r = r};
-    const crv_logger logger = {take_line, &log};
-    const crv_allocator usual = {0};
+    crv_context_desc desc;
+    crv_context_desc_init(&desc, sizeof desc);
+    desc.logger = (crv_logger){take_line, &log};
+    desc.parallel = progress_loops(r, s->in.view.common.threads.value);
     unsigned fits;
     int result = check(s, &fits, r);
     if (result != EXIT_DONE)
         return result;
     interrupt_hold(GRACE_S);
-    result =
-        device_context_in(&s->in.view.common, &logger, &usual, true, r, &w.e.context);
+    result = device_context_in(&s->in.view.common, &desc, r, &w.e.context);
     if (result == EXIT_DONE)
         result = tune(&w, fits, &log);
     free_work(&w);

@@ -62,6 +62,19 @@ static void take_line(void *user, crv_log_level level, const char *line)
         snprintf(e->problem, sizeof e->problem, "%s", line);
 }
 
+/* Between pieces of a run: ends it for a wish that waits, unless it is about to come to
+ * its end. Who drags a slider sees the pictures of short runs. */
+static int32_t leave_off(void *user, int32_t done, int32_t total)
+{
+    engine *e = user;
+    const double worth_it_s = 0.3;
+    if (!(e->run_began_s > 0.0) || !atomic_load(&e->overtaken))
+        return 0;
+    const double spent = report_seconds() - e->run_began_s;
+    e->left_off = spent * (total - done) > worth_it_s * done;
+    return e->left_off;
+}
+
 int engine_open(engine *e, source *from, truth *t, const common_settings *common,
                 report *r)
 {
@@ -73,9 +86,11 @@ int engine_open(engine *e, source *from, truth *t, const common_settings *common
     if (!e->planes || !e->lists)
         return report_no_memory(r);
     /* The library's own loops: those of the tool tell how far long estimates are. */
-    const crv_allocator usual = {0};
-    return device_context_in(common, &e->quiet.logger, &usual, false, r,
-                             &e->estimator.context);
+    crv_context_desc desc;
+    crv_context_desc_init(&desc, sizeof desc);
+    desc.logger = e->quiet.logger;
+    desc.progress = (crv_progress){.fn = leave_off, .user = e};
+    return device_context_in(common, &desc, r, &e->estimator.context);
 }
 
 void engine_close(engine *e)
@@ -158,12 +173,17 @@ bool engine_render(engine *e, const wish *w, shown *out)
 {
     *out = (shown){.wish = *w, .began_s = report_seconds()};
     e->problem[0] = '\0';
+    e->left_off = false;
     bool done = engine_place(e, w);
     if (!done && atomic_load(&e->source->stop))
         return false;
     if (done) {
         halves_want_truths(e, w);
         done = halves_make(e, w, out);
+    }
+    if (e->left_off) {
+        shown_free(out);
+        return false;
     }
     if (!done) {
         shown_free(out);

@@ -52,7 +52,10 @@ typedef struct engine {
     crv_context *single; /* of one thread, for samples; NULL: not made */
     explained explained;
     char problem[PROBLEM_SIZE];
-    bool muted; /* nothing that is logged is of interest */
+    bool muted;            /* nothing that is logged is of interest */
+    double run_began_s;    /* of a half's method; 0: none runs */
+    atomic_bool overtaken; /* set from outside: another wish waits */
+    bool left_off;         /* a run was ended for it */
 } engine;
 
 /* `from` and t must outlive the engine. Returns an exit code; close it in any case. */
@@ -64,8 +67,9 @@ void engine_close(engine *e);
  * so by itself. */
 bool engine_place(engine *e, const wish *w);
 
-/* Makes the picture; false if source->stop was set meanwhile. Whatever fails is said in
- * out->problem. The caller frees *out. */
+/* Makes the picture; false if source->stop was set meanwhile, or `overtaken` while a run
+ * would have taken long. Whatever fails is said in out->problem. The caller frees
+ * *out. */
 bool engine_render(engine *e, const wish *w, shown *out);
 
 /* What follows a picture: the numbers, and samples if they are wanted and not yet found.

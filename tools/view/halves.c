@@ -128,10 +128,14 @@ static float *make_content(engine *e, const wish *w, int half, half_shown *out)
     if (h->content != HALF_METHOD)
         return open_plane(e);
     const crv_options o = coarse_options(e, &h->options);
+    e->run_began_s = report_seconds();
     if (estimation_run(&e->half[half], e->planes, e->estimator.context,
                        e->estimator.gbuffer, &e->buffers->g.desc, &o)
-        != CRV_OK)
+        != CRV_OK) {
+        e->run_began_s = 0.0;
         return NULL;
+    }
+    e->run_began_s = 0.0;
     e->problem[0] = '\0'; /* a plan that was made anew is no failure */
     out->time_ms = e->half[half].time_ms;
     return pool_hold(e->half[half].result);
@@ -190,14 +194,13 @@ static bool take_explained(engine *e, const wish *w, shown *out)
 static bool open_single(engine *e)
 {
     common_settings common = *e->common;
-    const crv_logger silent = {0};
-    const crv_allocator usual = {0};
+    crv_context_desc desc;
+    crv_context_desc_init(&desc, sizeof desc);
     common.device = NULL;
     common.exact = true;
     common.threads = (arg_int){.given = true, .value = 1};
     return e->single
-           || device_context_in(&common, &silent, &usual, false, &e->quiet, &e->single)
-                  == EXIT_DONE;
+           || device_context_in(&common, &desc, &e->quiet, &e->single) == EXIT_DONE;
 }
 
 /* An empty list if the pixel shows no surface. */

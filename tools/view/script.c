@@ -86,7 +86,10 @@ static gboolean on_look(gpointer user)
     script *s = user;
     if (!s->app->window)
         return G_SOURCE_REMOVE;
-    if (s->done && !s->done(s)) {
+    const bool is_done = !s->done || s->done(s);
+    if (s->wrong[0])
+        return fail(s, s->wrong);
+    if (!is_done) {
         if (g_get_monotonic_time() - s->since > (gint64)GIVE_UP_S * 1000000)
             return fail(s, "did not come to an end");
         return G_SOURCE_CONTINUE;

@@ -15,6 +15,8 @@ struct script {
     bool (*done)(script *s); /* what is waited for; NULL: nothing */
     int32_t number[4];       /* of the action that is waited for */
     gint64 since, tried;     /* when the wait began, and the last attempt, us */
+    int attempts;            /* in vain, one after the other */
+    char wrong[96];          /* why the wait cannot end; "": it may */
     char path_out[4096];     /* of a screenshot that waits to be taken */
     /* measure: */
     gulong painted, framed;

@@ -11,7 +11,7 @@
 #include "panel.h"
 #include "script.h"
 
-enum { LAYOUT_US = 2000000 };
+enum { LAYOUT_US = 2000000, LAYOUTS_MAX = 5 };
 
 static const char *const no_half = "the half is left or right";
 static const char *const no_number = "a number is missing";
@@ -58,6 +58,20 @@ static const char *do_wait_truth(script *s, char **word)
     return NULL;
 }
 
+/* The window stays as it is, however often it is asked. */
+static void give_size_up(script *s, int32_t width, int32_t height)
+{
+    GdkSurface *surface = gtk_native_get_surface(GTK_NATIVE(s->app->window));
+    GdkMonitor *screen = gdk_display_get_monitor_at_surface(
+        gtk_widget_get_display(s->app->window), surface);
+    GdkRectangle at = {.width = 0};
+    if (screen)
+        gdk_monitor_get_geometry(screen, &at);
+    snprintf(s->wrong, sizeof s->wrong,
+             "the picture stays at %d x %d; give another size, the screen is %d x %d",
+             width, height, at.width, at.height);
+}
+
 static bool has_size(script *s)
 {
     const app *a = s->app;
@@ -70,6 +84,11 @@ static bool has_size(script *s)
     const bool changed = width != s->number[2] || height != s->number[3];
     if (width == 1 || (!changed && g_get_monotonic_time() - s->tried < LAYOUT_US))
         return false;
+    s->attempts = changed ? 0 : s->attempts + 1;
+    if (s->attempts == LAYOUTS_MAX) {
+        give_size_up(s, width, height);
+        return false;
+    }
     s->number[2] = width;
     s->number[3] = height;
     const int factor = gtk_widget_get_scale_factor(a->canvas);
@@ -89,7 +108,7 @@ static const char *do_size(script *s, char **word)
         return no_number;
     for (int i = 0; i < 2; i++)
         s->number[i] = (int32_t)size[i];
-    s->number[2] = s->number[3] = 0;
+    s->number[2] = s->number[3] = s->attempts = 0;
     s->done = has_size;
     return NULL;
 }

@@ -143,6 +143,7 @@ static void run(void *data)
         k->again = false;
         k->busy = true;
         atomic_store(&k->engine->source->stop, false);
+        atomic_store(&k->engine->overtaken, false);
         monitor_leave(k->monitor);
         serve(k, &w, number, again);
         monitor_enter(k->monitor);
@@ -174,6 +175,7 @@ void worker_stop(worker *k)
     monitor_enter(k->monitor);
     k->quit = true;
     atomic_store(&k->engine->source->stop, true);
+    atomic_store(&k->engine->overtaken, true);
     monitor_wake(k->monitor);
     monitor_leave(k->monitor);
     monitor_join(k->monitor);
@@ -187,6 +189,7 @@ uint64_t worker_ask(worker *k, const wish *w)
     monitor_enter(k->monitor);
     if (k->busy && !same_view(&k->wish, w))
         atomic_store(&k->engine->source->stop, true);
+    atomic_store(&k->engine->overtaken, true);
     k->wish = *w;
     const uint64_t number = ++k->asked;
     monitor_wake(k->monitor);

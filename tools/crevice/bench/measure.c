@@ -36,8 +36,10 @@ static void count_release(void *user, void *bytes, size_t size)
 static int open_context(const bench_settings *s, const bench_case *c, memory *m,
                         bool tells, report *r, crv_context **out)
 {
-    const crv_logger log = report_errors_only(r);
-    const crv_allocator allocator = {count_allocate, count_release, m};
+    crv_context_desc desc;
+    crv_context_desc_init(&desc, sizeof desc);
+    desc.logger = report_errors_only(r);
+    desc.allocator = (crv_allocator){count_allocate, count_release, m};
     common_settings common = s->common;
     common.threads = (arg_int){true, c->threads};
     common.depth_layout = c->layout;
@@ -46,7 +48,9 @@ static int open_context(const bench_settings *s, const bench_case *c, memory *m,
         common.isa = crv_isa_name((crv_isa)c->isa);
         common.exact = c->structure == 1;
     }
-    return device_context_in(&common, &log, &allocator, tells, r, out);
+    if (tells)
+        desc.parallel = progress_loops(r, common.threads.value);
+    return device_context_in(&common, &desc, r, out);
 }
 
 typedef struct running {
