@@ -53,17 +53,6 @@ CRV__INLINE vf place_of(const scale *c, vf cosine, vf sine)
     return vf_min(vf_max(place, vf_zero()), vf_set(SECTORS));
 }
 
-CRV__INLINE vf thickness_of(const sectors *so_far, const crv__slice_view *w, shape c,
-                            vf x, vf width)
-{
-    const vf run = x - so_far->start, least = vf_set(0.1f) * w->radius;
-    if (c.rule == CRV_THICKNESS_RUN)
-        return vf_max(run + run, least);
-    if (c.rule == CRV_THICKNESS_WIDTH)
-        return vf_max(vf_min(vf_set(2.5f) * run, width * w->scale), least);
-    return vf_set(w->params->thickness) * w->scale;
-}
-
 /*
  * `flat` of a slice. A front that rises over the tangent by an angle delta has at most
  *
@@ -96,9 +85,11 @@ CRV__INLINE vf width_at(const crv__group_pixels *at, const crv__sample_place *pl
 {
     const crv__frame *f = at->frame;
     const crv__params *p = f->params;
-    const float *from = crv__sample_at(at, place, 0, border);
-    const vf width = crv__sample_depth(at, from + p->layers * at->di->layer_pitch);
-    if (!border || p->border == CRV_BORDER_BACKGROUND)
+    const ptrdiff_t skip = p->layers * at->di->layer_pitch;
+    if (!border || crv__group_slice_is_inside(at, place))
+        return crv__sample_depth(at, at->own + place->offset[0] + skip);
+    const vf width = crv__sample_depth(at, crv__sample_at(at, place, 0, border) + skip);
+    if (p->border == CRV_BORDER_BACKGROUND)
         return width;
     const vi zero = vi_set(0), right = vi_set(p->width - 1),
              bottom = vi_set(p->height - 1);
@@ -113,14 +104,25 @@ CRV__INLINE vf width_at(const crv__group_pixels *at, const crv__sample_place *pl
     return vf_select(off, border_width, width);
 }
 
+/* run: how far along the slice the sample's surface has been seen. */
+CRV__INLINE vf thickness_of(const crv__slice_view *w, shape c, vf run, vf width)
+{
+    const vf least = vf_set(0.1f) * w->radius;
+    if (c.rule == CRV_THICKNESS_RUN)
+        return vf_max(run + run, least);
+    if (c.rule == CRV_THICKNESS_WIDTH)
+        return vf_max(vf_min(vf_set(2.5f) * run, width * w->scale), least);
+    return vf_set(w->params->thickness) * w->scale;
+}
+
 /* Weighs the bits that are new. bits: the body's; count: how many, or any number of none.
  */
 CRV__INLINE void weigh(sectors *to, const crv__slice_view *w, shape c, vf x, vf z,
                        vi bits, vf count, bool with_vectors)
 {
     const vi new_bits = bits & ~to->mask;
-    const vm is_new = vm_not(vi_eq(new_bits, vi_set(0)));
     const vf added = vf_of(vi_count_bits(new_bits));
+    const vm is_new = vf_lt(vf_zero(), added);
     const vf squared = vf_fma(x, x, z * z);
     const vf r = vf_min(squared * vf_rsqrt_fair(squared), w->radius);
     const vf middle = vf_fma(vf_set(-0.7f) * (r - x), added * vf_rcp_rough(count), r);
@@ -201,7 +203,7 @@ CRV__INLINE int32_t collect(risen *r, sectors *so_far, const crv__group_pixels *
                                 vf_le(squared, flat * height * height));
         r->x[count] = x;
         r->z[count] = z;
-        r->thickness[count] = thickness_of(so_far, w, c, x, width);
+        r->thickness[count] = thickness_of(w, c, x - so_far->start, width);
         r->index[count] = i;
         count += vm_any(rises) ? 1 : 0;
     }
@@ -226,9 +228,10 @@ CRV__INLINE vf blocked_share(const crv__group_pixels *at, const crv__list *list,
         const int32_t end = i + MOST_RISEN < last ? i + MOST_RISEN : last;
         risen r;
         const int32_t count = collect(&r, &found, at, list, w, s, flat, c, i, end);
-        for (int32_t n = 0; n < count; n++)
+        for (int32_t n = 0; n < count; n++) {
             add_body(&found, w, s, &places, c, &list->samples[r.index[n]], r.x[n], r.z[n],
                      r.thickness[n], vectors);
+        }
     }
     if (vectors && c.falloff == CRV_FALLOFF_NONE)
         add_groups(&found, vf_set(1), found.mask);

@@ -21,6 +21,7 @@ typedef struct crv__group_pixels {
     int32_t y, m, px;  /* the group's row, and column and phase in its plane */
     int32_t at_border; /* whether samples may be off the picture */
     int32_t off;       /* where those are then, from `own` on */
+    int32_t left;      /* column of the first lane, four to the next */
     vi x;              /* columns */
     vf depth, inverse; /* planar depth, and 1 over it */
     vf ray_x, ray_y;   /* the view ray (x, y, -1), or (0, 0, -1) */
@@ -237,7 +238,8 @@ CRV__INLINE void crv__group_pass(crv__group_pixels *at, const crv__list *list,
         at->depth = vf_load(depth + i);
         at->inverse = vf_load(group->inverses + i);
         at->n = crv__group_normal(normal, px, i);
-        at->x = vi_set(x + 4 * i) + vi_iota() * vi_set(4);
+        at->left = x + CRV__PHASES * i;
+        at->x = vi_set(at->left) + vi_iota() * vi_set(CRV__PHASES);
         at->ray_x = p->orthographic
                         ? vf_zero()
                         : (vf_of(at->x) + vf_set(0.5f - p->cx)) * vf_set(p->inv_fx);

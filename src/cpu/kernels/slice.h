@@ -210,11 +210,11 @@ CRV__NOINLINE vf crv__lanes_beyond(const crv__frame *f, vi u, vi v, vm mask)
     const vm surface = vm_and(mask, vf_lt(d, vf_set(INFINITY)));
     const vf own = shape.orthographic ? d : vf_set(1) / d;
     vf w = own;
-    if (p->width > 4)
+    if (p->width > 4 && vm_any(over_x))
         w = w
             + crv__lanes_outward(f, shape, x, y, vi_select(over_left, one, minus_one),
                                  zero, over_x, own, u - x);
-    if (p->height > 4)
+    if (p->height > 4 && vm_any(over_y))
         w = w
             + crv__lanes_outward(f, shape, x, y, zero,
                                  vi_select(over_top, one, minus_one), over_y, own, v - y);

@@ -95,7 +95,7 @@ CRV__INLINE crv__group_slice crv__group_slice_at(const crv__group_pixels *at,
     s.sin_tangent = w->a * inverse;
     s.total = crv__lanes_measure(w->params, w->a, s.b, s.cos_tangent, s.sin_tangent);
     const vm counts = vf_lt(vf_set(1e-7f), s.total);
-    s.inverse = vf_where(counts, one / s.total);
+    s.inverse = vf_where(counts, vf_rcp(s.total));
     s.density = vf_where(counts, scale * scale);
     s.weight = vf_where(counts, scale * scale * s.total);
     return s;
@@ -115,15 +115,27 @@ CRV__INLINE void crv__group_slice_point(const crv__slice_view *w,
     *z = orthographic ? vf_fma(k, w->g, q) : vf_fma(k, w->g - q, q);
 }
 
+/* Whether all lanes have their sample on the picture. */
+CRV__INLINE bool crv__group_slice_is_inside(const crv__group_pixels *at,
+                                            const crv__sample_place *place)
+{
+    const crv__params *p = at->frame->params;
+    const int32_t left = at->left + place->du, v = at->y + place->dv;
+    return (place->shift[0] != CRV__SHIFT_OFF) & ((uint32_t)v < (uint32_t)p->height)
+           & (left >= 0) & (left + CRV__PHASES * (CRV__LANES - 1) < p->width);
+}
+
 /* Depth of a layer at a sample; from the background on there is no surface. */
 CRV__INLINE vf crv__group_slice_depth(const crv__group_pixels *at,
                                       const crv__sample_place *place, int32_t layer,
                                       int border)
 {
     const crv__params *p = at->frame->params;
-    const float *from = crv__sample_at(at, place, 0, border);
-    const vf d = crv__sample_depth(at, from + layer * at->di->layer_pitch);
-    if (!border || layer > 0 || p->border == CRV_BORDER_BACKGROUND
+    const ptrdiff_t skip = layer * at->di->layer_pitch;
+    if (!border || crv__group_slice_is_inside(at, place))
+        return crv__sample_depth(at, at->own + place->offset[0] + skip);
+    const vf d = crv__sample_depth(at, crv__sample_at(at, place, 0, border) + skip);
+    if (layer > 0 || p->border == CRV_BORDER_BACKGROUND
         || place->shift[0] == CRV__SHIFT_OFF)
         return d;
     const vf background = vf_set(at->di->background);
