@@ -11,12 +11,12 @@ from typing import Any
 from . import performance
 from .measure import Study
 from .options import PRESETS
-from .sections import filters
+from .sections import bent, filters
 from .tables import markdown, number, rewrite
 from .tool import HOME, ToolError
 
 DOCS = HOME / "docs"
-PARTS = ("courtyard", "filters", "meshes", "performance", "gpu")
+PARTS = ("courtyard", "filters", "bent", "meshes", "performance", "gpu")
 SHOWN = ("medium", "high")
 
 
@@ -110,6 +110,11 @@ def filters_parts(report: dict[str, Any]) -> dict[str, dict[str, str]]:
                                                        report["filters"]["variants"])}}
 
 
+def bent_parts(report: dict[str, Any]) -> dict[str, dict[str, str]]:
+    return {"methods.md": {"bent-made-by": made_by(report),
+                           "bent-light": markdown(bent.HEADS, report["bent"])}}
+
+
 def courtyard_parts(report: dict[str, Any]) -> dict[str, dict[str, str]]:
     return {"methods.md": {"courtyard-made-by": made_by(report),
                            "courtyard-methods": methods_table(report),
@@ -187,6 +192,10 @@ def run(arguments: argparse.Namespace, make_study: Any) -> None:
         elif part == "filters":
             write(arguments.pages, filters_parts(report_of(
                 folder, [*given, *filters.THIN, "--only", "filters", *common, *small])))
+        elif part == "bent":
+            write(arguments.pages, bent_parts(report_of(
+                folder, [*given, "builtin:courtyard", "--only", "bent", *common,
+                         *(small or ["--rays", "64"])])))
         elif part == "meshes":
             size = small or ["--size", "1280x720"]
             write(arguments.pages, meshes_parts(report_of(

@@ -13,13 +13,14 @@ from .measure import Study
 from .options import Registry
 from .page import Page
 from .progress import Progress
-from .sections import (Step, alchemy, closed_forms, filters, hbao, hsao, methods, missing,
+from .sections import (Step, alchemy, bent, closed_forms, filters, hbao, hsao, methods, missing,
                        stability, structure, vao, views as view_section)
 from .tables import PageError
 from .tool import Tool, ToolError, find_tool
 from .views import View, ViewError, collect
 
 SECTIONS = {"methods": methods.steps, "missing": missing.steps, "filters": filters.steps,
+            "bent": bent.steps,
             "structure": structure.steps,
             "hsao": hsao.steps, "hbao": hbao.steps, "alchemy": alchemy.steps, "vao": vao.steps,
             "closed-forms": closed_forms.steps, "stability": stability.steps}

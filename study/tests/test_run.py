@@ -28,7 +28,7 @@ def test_page_in_a_browser(page, folder):
 
 
 def test_every_section_left_its_numbers(report):
-    for key in ("views", "references", "methods", "missing", "structures", "claims_hsao",
+    for key in ("views", "references", "methods", "missing", "bent", "structures", "claims_hsao",
                 "claims_hbao", "alchemy", "vao", "closed_forms", "stability", "statements"):
         assert report[key], key
 
@@ -64,6 +64,12 @@ def test_errors_are_those_of_other_hands(tool, page, report):
     assert mask.sum() == view["pixels"]
     # The study's reference stops rays at its error; pixels then differ by less than it.
     assert row["rmse"] == pytest.approx(stats.rmse(picture, truth["AO"], mask), abs=2e-3)
+
+
+def test_light_by_traced_bent_normals(report):
+    """Were a sky's side or a space taken wrongly, it would be worse than by normals."""
+    view, normals, traced = report["bent"][0][:3]
+    assert view == "corner" and float(normals) > 0.005 and float(traced) < 0.5
 
 
 def test_comparison_of_made_pictures(tool, folder):

@@ -252,6 +252,7 @@ static int trace_sky(const render_settings *s, const stage *lit, reference **out
                                  .u = 1.0f, /* of another falloff, but must be valid */
                                  .radius = radius_of(s, lit->model, lit->buffers),
                                  .rays = s->sky_rays.value,
+                                 .seed = (uint32_t)s->view.common.options.seed,
                                  .normals = s->view.normals_from.value == 0
                                                 ? SCENE_NORMALS_INTERPOLATED
                                                 : SCENE_NORMALS_FACE};
