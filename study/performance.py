@@ -19,7 +19,7 @@ Row = dict[str, Any]
 
 # The methods that the papers' headlines are about, and what they are called: at `medium`.
 MAIN = {"hbao": "8x8", "alchemy": "12", "vao": "12", "hsao": "7x12 + 1"}
-FILTERS = ("none", "bilateral13", "box4", "edges7", "gauss5")
+FILTERS = ("none", "bilateral13", "box4", "edges15", "gauss5")
 HEIGHTS = (180, 360, 720, 1080, 2160)
 FACTORS = (0.125, 0.25, 0.5, 1, 2, 4)
 WORK = (0.5, 1, 2, 4, 8)  # factors of the samples at `medium`

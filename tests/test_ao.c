@@ -168,14 +168,14 @@ static void other_types_become_floats(void **state)
     assert_int_equal(crv_image_convert(&from, &two, NULL), bad);
 }
 
-/* Radius 0.5 at depth 2 with a focal length of 100 px is 25 px; bilateral13 reads 6. */
+/* Radius 0.5 at depth 2 with a focal length of 100 px is 25 px; edges15 reads 7. */
 static void guard_band_is_the_projected_radius(void **state)
 {
     (void)state;
     crv_options options = fixture_options("hbao");
     crv_camera camera = crv_camera_perspective(200, 200, 1.57079633f);
     options.radius = 0.5f;
-    assert_int_equal(crv_guard_px(&options, &camera, 2), 25 + 6);
+    assert_int_equal(crv_guard_px(&options, &camera, 2), 25 + 7);
     options.filter = NULL;
     assert_int_equal(crv_guard_px(&options, &camera, 2), 25);
     options.max_radius_px = 10;

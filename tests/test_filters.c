@@ -53,6 +53,17 @@ static void fill(float *image, float value)
         image[i] = value;
 }
 
+/* 1 2 3 4 3 2 1, and a third of the same 4 pixels to each side. */
+static double levels_at(int32_t k)
+{
+    double sum = 0;
+    for (int32_t side = -4; side <= 4; side += 4) {
+        const double height = 4 - abs(k - side);
+        sum += (side ? 0.2 : 0.6) * (height > 0 ? height / 16 : 0);
+    }
+    return sum;
+}
+
 static void flat_depth_gives_the_plain_kernel(void **state)
 {
     (void)state;
@@ -74,11 +85,9 @@ static void flat_depth_gives_the_plain_kernel(void **state)
         const int inside = dx >= -1 && dx <= 2 && dy >= -1 && dy <= 2;
         assert_true(fabs(1 - (double)out[i] - inside / 16.0) < 1e-6);
     }
-    apply("edges7", 1, depth, in, out);
+    apply("edges15", 1, depth, in, out);
     for (int32_t i = 0; i < COUNT; i++) {
-        const int32_t dx = i % SIZE - SIZE / 2, dy = i / SIZE - SIZE / 2;
-        const double w =
-            abs(dx) > 3 || abs(dy) > 3 ? 0 : (4 - abs(dx)) * (4 - abs(dy)) / 256.0;
+        const double w = levels_at(i % SIZE - SIZE / 2) * levels_at(i / SIZE - SIZE / 2);
         assert_true(fabs(1 - (double)out[i] - w) < 1e-6);
     }
     apply("bilateral13", 1, depth, in, out);
@@ -146,12 +155,12 @@ static void slopes_are_followed(void **state)
         apply(name, 0, depth, in, literal);
         /* Kernels weigh black and white alike to a sixteenth. */
         assert_true(fabsf(followed[MIDDLE] - 0.5f) < 0.07f);
-        /* gauss5 weighs its neighbours little. So does edges7, by 0.07 * 3, if all edges
-         * are shut: 0.42 of 4.42 in one pass, in two less than twice that. The others do
-         * not weigh them. */
+        /* gauss5 weighs its neighbours little. So does edges15 if all edges are shut: by
+         * 0.1 of 1.1 in one pass, in two less than twice that. The others do not weigh
+         * them. */
         const int is_gauss5 = strcmp(name, "gauss5") == 0,
-                  is_edges7 = strcmp(name, "edges7") == 0;
-        const float rest = is_gauss5 ? 0.25f : is_edges7 ? 0.19f : 0;
+                  is_edges15 = strcmp(name, "edges15") == 0;
+        const float rest = is_gauss5 ? 0.25f : is_edges15 ? 0.19f : 0;
         assert_true(fabsf(literal[MIDDLE] - in[MIDDLE]) <= rest);
     }
 }
@@ -200,7 +209,7 @@ static void faces_that_meet_are_kept_apart(void **state)
 }
 
 /* A line of a pixel, nearer than the surface around it. */
-static void edges7_sees_no_farther_than_an_edge(void **state)
+static void edges15_takes_little_of_what_is_unlike(void **state)
 {
     (void)state;
     enum { LINE = SIZE / 2 };
@@ -210,19 +219,45 @@ static void edges7_sees_no_farther_than_an_edge(void **state)
         depth[i] = x == LINE ? 5 : 20;
         in[i] = x < LINE ? 1 : x == LINE ? 0 : 0.5f;
     }
-    apply("edges7", 1, depth, in, out);
-    for (int32_t i = 0; i < COUNT; i++) {
-        /* The sides have the same depth, and nothing of each other. Alone between two
-         * edges, the line has 0.07 (3 + 2 + 1) of each side's value, and 4 of its own. */
-        const double wanted =
-            i % SIZE != LINE ? (double)in[i] : 0.42 * (1 + 0.5) / (4 + 2 * 0.42);
-        assert_true(fabs((double)out[i] - wanted) < 1e-6); /* float sums of 7 taps */
-    }
+    apply("edges15", 1, depth, in, out);
+    /* Alone between two edges, the line has 0.05 of each side's value, and its own. */
+    assert_true(fabs((double)out[MIDDLE] - 0.05 * (1 + 0.5) / 1.1) < 1e-6);
 }
 
-/* Edges multiply: on a surface that turns by the same angle at every pixel, a tap k away
- * counts (4 - k) e^k. */
-static void edges7_multiplies_the_edges_on_the_way(void **state)
+/* Columns at one depth every `period` pixels, others behind them, all facing the camera;
+ * the middle one is 0, all else 1. */
+static void filter_comb(int32_t period, float *out)
+{
+    static float depth[COUNT], normals[3 * COUNT], in[COUNT];
+    for (int32_t i = 0; i < COUNT; i++) {
+        const int32_t from_middle = i % SIZE - SIZE / 2;
+        normals[3 * i + 2] = 1;
+        depth[i] = from_middle % period == 0 ? 5 : 20;
+        in[i] = from_middle == 0 ? 0 : 1;
+    }
+    apply_with("edges15", 0, 25, depth, normals, in, out);
+}
+
+static void edges15_bridges_gaps(void **state)
+{
+    (void)state;
+    static float out[COUNT];
+    /* By level: 1/11; with the columns 2 away, 6/11; with those 4 away, 8/11. */
+    filter_comb(2, out);
+    assert_true(fabs((double)out[MIDDLE] - 8.0 / 11) < 1e-6);
+    /* The column beside it, behind: 10.5/11, 0.965909 (with its own kind, of which one
+     * has 10.5/11, too), and with 0.988636 and 1 at 4 pixels: */
+    const double beside = (0.9659091 + (0.9886364 + 1) / 3) / (5.0 / 3);
+    assert_true(fabs((double)out[MIDDLE + 1] - beside) < 1e-6);
+    /* Nothing within 2 pixels: 1.1 of 4 was found, the pixel counts 0.55^2. */
+    filter_comb(4, out);
+    const double own = 0.55 * 0.55, far = (own / 11 + 2.0 / 3) / (own + 2.0 / 3);
+    assert_true(fabs((double)out[MIDDLE] - far) < 1e-6);
+}
+
+/* On a surface that turns by 5 degrees at every pixel, the edges of 2 pixels are those of
+ * 10 degrees, and those of 4 are shut at 15. */
+static void edges15_weighs_by_angles(void **state)
 {
     (void)state;
     static float depth[COUNT], normals[3 * COUNT], in[COUNT], out[COUNT];
@@ -234,14 +269,31 @@ static void edges7_multiplies_the_edges_on_the_way(void **state)
         memcpy(normals + (ptrdiff_t)3 * i, n, sizeof n);
         in[i] = i % SIZE == MIDDLE % SIZE ? 0 : 1;
     }
-    apply_with("edges7", 1, 15, depth, normals, in, out);
-    const double e = 1 - (1 - cos(step)) / (1 - cos(limit));
+    apply_with("edges15", 1, 15, depth, normals, in, out);
+    const double e1 = 1 - (1 - cos(step)) / (1 - cos(limit)),
+                 e2 = 1 - (1 - cos(2 * step)) / (1 - cos(limit));
+    const double own = 1 / (1 + e1), beside = 0.5 * e1 / (1 + e1);
+    const double wanted[4] = {own / (1 + e2), beside * (1 + 0.5 * e2) / (1 + e2),
+                              0.5 * e2 * own / (1 + e2), 0.5 * e2 * beside / (1 + e2)};
     for (int32_t k = 0; k <= 3; k++) {
         /* 1 - cos of 5 degrees, 0.0038, is known to 6e-8, and counts 29 times. */
-        const double all = 4 + 2 * (3 * e + 2 * e * e + e * e * e);
-        const double own = (4 - k) * pow(e, k) / all;
-        assert_true(fabs(1 - (double)out[MIDDLE + k] - own) < 1e-5);
+        assert_true(fabs(1 - (double)out[MIDDLE + k] - wanted[k]) < 1e-5);
     }
+}
+
+/* At the picture's border, all neighbours are on one side, and those 2 and 4 pixels away
+ * count less. */
+static void edges15_leans_little_to_one_side(void **state)
+{
+    (void)state;
+    static float depth[COUNT], in[COUNT], out[COUNT];
+    fill(depth, 5);
+    for (int32_t i = 0; i < COUNT; i++)
+        in[i] = i % SIZE == 0 ? 0 : 1;
+    apply("edges15", 1, depth, in, out);
+    const double first = 0.5 / 1.5, second = (first + 0.375) / 1.375;
+    const double wanted = (second + 1.0 / 6) / (7.0 / 6);
+    assert_true(fabs((double)out[SIZE * (SIZE / 2)] - wanted) < 1e-6);
 }
 
 int main(void)
@@ -253,8 +305,10 @@ int main(void)
         cmocka_unit_test(slopes_are_followed),
         cmocka_unit_test(faces_that_meet_are_kept_apart),
         cmocka_unit_test(non_finite_values_count_as_open),
-        cmocka_unit_test(edges7_sees_no_farther_than_an_edge),
-        cmocka_unit_test(edges7_multiplies_the_edges_on_the_way),
+        cmocka_unit_test(edges15_takes_little_of_what_is_unlike),
+        cmocka_unit_test(edges15_bridges_gaps),
+        cmocka_unit_test(edges15_weighs_by_angles),
+        cmocka_unit_test(edges15_leans_little_to_one_side),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -32,7 +32,7 @@ static void take_many(crv_options *options)
 }
 
 static const bent_case CASES[] = {
-    {VK_FORMAT_R16G16_SFLOAT, "gtao", "edges7", NULL, SCENE_WIDTH, SCENE_HEIGHT},
+    {VK_FORMAT_R16G16_SFLOAT, "gtao", "edges15", NULL, SCENE_WIDTH, SCENE_HEIGHT},
     {VK_FORMAT_R16G16_SNORM, "bitmask", "bilateral13", NULL, SCENE_WIDTH, SCENE_HEIGHT},
     {VK_FORMAT_R16G16B16A16_SFLOAT, "hsao", "box4", NULL, SCENE_WIDTH, SCENE_HEIGHT},
     {VK_FORMAT_R32G32B32A32_SFLOAT, "raymarch", NULL, NULL, SCENE_WIDTH, SCENE_HEIGHT},

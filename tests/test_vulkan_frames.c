@@ -29,7 +29,7 @@ static double rmse(const float *a, const float *b, size_t count)
 static void odd_sizes_agree_with_the_cpu(void **state)
 {
     static const char *const METHODS[] = {"hbao", "vao"};
-    static const char *const FILTERS[] = {"bilateral13", "box4", "edges7", "gauss5"};
+    static const char *const FILTERS[] = {"bilateral13", "box4", "edges15", "gauss5"};
     for (int i = 0; i < 8; i++) {
         char name[64];
         scene_encoding e = STAGE_USUAL;

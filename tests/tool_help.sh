@@ -46,7 +46,7 @@ if command -v python3 >/dev/null; then
 listing = json.load(sys.stdin)
 names = [m["name"] for m in listing["methods"]]
 assert "hbao" in names, names
-assert {"gauss5", "bilateral13", "box4", "edges7"} <= {f["name"] for f in listing["filters"]}
+assert {"gauss5", "bilateral13", "box4", "edges15"} <= {f["name"] for f in listing["filters"]}
 for entry in listing["methods"] + listing["filters"]:
     assert entry["paper"] and entry["title"]
     if entry in listing["methods"]:

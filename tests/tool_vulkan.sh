@@ -49,10 +49,10 @@ agrees()
 all_agree()
 {
     for method in $methods; do
-        agrees "$1" "$2" "$method" bilateral13
+        agrees "$1" "$2" "$method" edges15
     done
     for filter in none $filters; do
-        [ "$filter" = bilateral13 ] || agrees "$1" "$2" hbao "$filter"
+        [ "$filter" = edges15 ] || agrees "$1" "$2" hbao "$filter"
     done
 }
 

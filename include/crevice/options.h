@@ -110,7 +110,7 @@ typedef struct crv_method {
 
 /* A filter of the registry. Static storage. */
 typedef struct crv_filter {
-    const char *name;  /* "bilateral13" */
+    const char *name;  /* "edges15" */
     const char *title; /* what it does, a line */
     const char *paper;
     const char *const *options; /* keys of the options that it reads, NULL-terminated */
@@ -148,7 +148,7 @@ typedef struct crv_options {
     size_t struct_size; /* set by crv_options_init() */
 
     const crv_method *method; /* default hbao */
-    const crv_filter *filter; /* NULL: none. Default bilateral13 */
+    const crv_filter *filter; /* NULL: none. Default edges15 */
 
     /* R, radius of influence, scene units, > 0. Default 1, which seldom fits. */
     float radius;

@@ -237,7 +237,7 @@ static crv_options defaults_of(const crv_method *method)
 {
     crv_options options = {.struct_size = sizeof options,
                            .method = method,
-                           .filter = crv_filter_find("bilateral13")};
+                           .filter = crv_filter_find("edges15")};
     for (int i = 0; i < ROW_COUNT; i++)
         crv__options_put(&options, &TABLE[i].info, TABLE[i].info.default_value);
     crv_options_preset(&options, CRV_PRESET_MEDIUM);

@@ -8,7 +8,7 @@ set(crevice_kernel_sources
     cpu/kernels/deinterleave_tmpl.c cpu/kernels/alchemy_deinterleaved_tmpl.c cpu/kernels/bitmask_deinterleaved_tmpl.c cpu/kernels/gtao_deinterleaved_tmpl.c cpu/kernels/hbao_deinterleaved_tmpl.c
     cpu/kernels/vo_deinterleaved_tmpl.c
     cpu/kernels/depth_tmpl.c cpu/kernels/normals_tmpl.c
-    cpu/kernels/bilateral13_tmpl.c cpu/kernels/box4_tmpl.c cpu/kernels/edges7_tmpl.c
+    cpu/kernels/bilateral13_tmpl.c cpu/kernels/box4_tmpl.c cpu/kernels/edges15_tmpl.c
     cpu/kernels/gauss5_tmpl.c)
 
 # Which sets: all that the compiler has, the fastest that this machine has, or a list. Scalar

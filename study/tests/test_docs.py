@@ -37,7 +37,7 @@ def test_courtyard_and_reference_tables(report, tmp_path):
     docs.write(pages, docs.filters_parts(report))
     docs.write(pages, docs.bent_parts(report))
     methods = (pages / "methods.md").read_text(encoding="utf-8")
-    assert "| `hbao` | `edges7` |" in methods and "| `bitmask` 4x8 |" in methods
+    assert "| `hbao` | `bilateral13` |" in methods and "| `bitmask` 4x8 |" in methods
     assert "| `hbao` | uniform, linear | medium | 64 |" in methods
     assert "| corner | 0." in methods
     papers = (pages / "papers.md").read_text(encoding="utf-8")

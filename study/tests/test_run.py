@@ -116,7 +116,7 @@ def test_filters(report):
     for row in report["filters"]["rows"]:
         assert row["rmse_at_edges"] > row["rmse"] > 0, row
         assert row["flicker"] > 0, row
-        if row["filter"] == "bilateral13":
+        if row["filter"] == "edges15":
             assert row["rmse"] == pytest.approx(medium[row["method"]]["rmse"], abs=2e-3)
 
 

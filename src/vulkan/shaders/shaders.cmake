@@ -13,7 +13,7 @@ set(CREVICE_SHADER_INCLUDE_DIR ${CMAKE_CURRENT_BINARY_DIR}/shaders)
 file(MAKE_DIRECTORY ${CREVICE_SHADER_INCLUDE_DIR}) # not every generator makes it
 set(CREVICE_SHADERS
     hbao gtao bitmask hsao raymarch alchemy vo containment vao ssao
-    bilateral13 box4 edges7 gauss5 bilateral13_half gauss5_half
+    bilateral13 box4 edges15 gauss5 bilateral13_half gauss5_half
     convert depth_convert deinterleave prefilter width)
 # Only 1.3 devices are used, but SPIR-V 1.6 would ask them for maintenance4.
 set(CREVICE_SHADER_TARGET vulkan1.2)

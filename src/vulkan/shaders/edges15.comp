@@ -2,5 +2,5 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "edges7.glsl"
+#include "edges15.glsl"
 #include "filter.glsl"
