@@ -80,7 +80,7 @@ ends_soon '^G-buffer:  *[0-9.]* %, [0-9].* left$' '' gbuffer builtin:courtyard $
 # A measurement of which each run takes long.
 ends_soon '^containment: about ' '' bench builtin:courtyard --threads 1 --size 640x360 \
     --method containment --set samples=4000 --isa scalar
-ends_soon '^estimation:  *[0-9.]* %, [0-9].* left$' '' bench builtin:courtyard \
+ends_soon '^run:  *[0-9.]* %, [0-9].* left$' '' bench builtin:courtyard \
     --threads 1 --size 640x360 --method containment --set samples=4000 --isa scalar
 
 # A pixel of which takes so many samples that a large tile of them would take seconds.
@@ -88,6 +88,13 @@ ends_soon '^estimation:  *[0-9.]* %, [0-9].* left$' '' bench builtin:courtyard \
 ends_soon '^estimation:  *[0-9.]* %, [0-9].* left$' '' render builtin:courtyard $out \
     --size 1280x720 --method bitmask --directions 256 --steps 256 --isa scalar
 at_most "$taken" $((3 * most)) "the processor's time before anything is told"
+
+# A search for options: its truth, the runs of which each takes long, the search itself.
+ends_soon '^truth:  *[0-9.]* %, [0-9].* left$' '' tune builtin:courtyard --threads 1 \
+    --size 320x180 --rays 65536
+ends_soon '^estimation:  *[0-9.]* %, [0-9].* left$' '' tune builtin:courtyard --threads 1 \
+    --size 320x180 --rays 16 --method containment --samples 4000 --isa scalar
+ends_soon '^fit: about ' '' tune builtin:corner --size 32x18 --rays 16 --time 100
 
 # A comparison, too.
 printf 'Pf\n6000 4000\n-1.0\n' >big.pfm

@@ -127,10 +127,17 @@ crv_parallel progress_loops(report *r, int32_t threads)
 #endif
 }
 
+/* A run has several steps, and another may follow. */
 static int32_t show_run(void *user, int32_t done, int32_t total)
 {
     progress *p = user;
+    if (p->total > 0 && (total != p->total || done <= p->piece)) {
+        p->start = p->at;
+        p->told = 0.0;
+    }
     p->total = total;
+    p->piece = done;
+    p->at = report_seconds();
     progress_show(p, done);
     return 0;
 }

@@ -13,7 +13,9 @@ typedef struct progress {
     double start, told; /* seconds; told 0: not yet */
     int64_t from, total;
     bool terminal;
-    int width; /* of the line on the terminal */
+    int width;     /* of the line on the terminal */
+    int32_t piece; /* of a run, that was told of last */
+    double at;     /* when; seconds */
 } progress;
 
 /* Whether work of so many seconds is told of. */
@@ -39,7 +41,8 @@ void progress_share(void *user, double share);
  * so that the library runs them, if the tool is built without OpenMP. */
 crv_parallel progress_loops(report *r, int32_t threads);
 
-/* Says the same of runs on a GPU: p is begun anew before each of them. */
+/* Says the same of what the library does by its own loops, and on a GPU: p is begun, with
+ * a total of 0, before the runs. */
 crv_progress progress_runs(progress *p);
 
 #endif

@@ -342,7 +342,12 @@ static crv_status fit(fitter *f)
     out->finished = !f->exhausted;
     const crv_options options = options_of(f, &best);
     tune_error after;
-    if (tune_view_measure(q->view, &options, &after) == CRV_OK
+    status = tune_view_measure(q->view, &options, &after);
+    if (status == CRV_ERROR_STOPPED) { /* what the search knows of it */
+        after.mean_square = f->least * f->least;
+        after.rmse = sqrt(fmax(after.mean_square - q->view->noise, 0.0));
+    }
+    if ((status == CRV_OK || status == CRV_ERROR_STOPPED)
         && after.mean_square < out->before.mean_square) {
         out->options = options;
         out->after = after;

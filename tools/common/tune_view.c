@@ -97,6 +97,16 @@ static double noise_of(const tune_view *v, const double *spread)
     return v->count > 0 ? sum / (passes * (passes - 1.0) * v->count) : 0.0;
 }
 
+/* Of the work: the rays that are wanted, or as many as bring the noise down, or as there
+ * is time for. */
+static double share_done(const tune_view *v, const tune_trace *t, double start)
+{
+    if (t->rays > 0)
+        return fmin((double)v->rays / t->rays, 1.0);
+    const double clear = v->noise > 0.0 ? ERROR_ENOUGH * ERROR_ENOUGH / v->noise : 0.0;
+    return fmin(fmax(clear, (report_seconds() - start) / t->seconds), 1.0);
+}
+
 static bool is_enough(const tune_view *v, const tune_trace *t, double start)
 {
     if (v->rays < PASSES_MIN * PASS_RAYS)
@@ -124,6 +134,8 @@ int tune_view_trace(tune_view *v, const tune_trace *t, const crv_logger *log)
         reference_restart(work, (uint32_t)(v->rays / PASS_RAYS) + 1);
         add_pass(v, work, t->threads, spread);
         v->noise = v->rays > PASS_RAYS ? noise_of(v, spread) : 0.0;
+        if (t->watch)
+            t->watch(t->user, share_done(v, t, start));
         given_up = t->stop && t->stop(t->user);
     }
     reference_free(work);

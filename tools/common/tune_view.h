@@ -43,6 +43,7 @@ typedef struct tune_trace {
     int32_t rays;             /* for each pixel; 0: as many as the time allows */
     double seconds;
     bool (*stop)(void *user); /* asked now and then: true gives it up. NULL: never */
+    void (*watch)(void *user, double share); /* told of the work done. NULL: nobody */
     void *user;
 } tune_trace;
 

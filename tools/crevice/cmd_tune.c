@@ -207,6 +207,23 @@ static void take_line(void *user, crv_log_level level, const char *line)
         v->r->logger.fn(v->r->logger.user, level, line);
 }
 
+/* Runs tell how far they are. One that an interrupt finds goes on for half a second. */
+static int32_t watch_run(void *user, int32_t done, int32_t total)
+{
+    const crv_progress shown = progress_runs(user);
+    shown.fn(shown.user, done, total);
+    return interrupt_is_late();
+}
+
+/* False after an error line. */
+static bool has_run(const tune_work *w, crv_status status, const char *doing)
+{
+    if (status != CRV_ERROR_STOPPED)
+        return report_ok(w->r, status, doing);
+    report_error(w->r, "%s: interrupted before anything was fitted", w->s->in.view.model);
+    return false;
+}
+
 typedef struct watching {
     report *r;
     progress p;
@@ -238,9 +255,11 @@ static int fit(tune_work *w, unsigned fits, tune_result *out)
         q.seconds = (1.0 - w->truth_share) * s->time_s.value - w->truth_s;
         watch.seconds = by_count ? 0.0 : q.seconds;
     }
+    if (!by_count)
+        progress_announce(w->r, "fit", q.seconds);
     watch.p = progress_begin(
         w->r, "fit", 0, by_count ? s->evaluations.value : (int64_t)(1e3 * q.seconds));
-    const bool done = report_ok(w->r, tune_fit(&q, out), "fit");
+    const bool done = has_run(w, tune_fit(&q, out), "fit");
     progress_end(&watch.p);
     if (!done)
         return EXIT_FAILED;
@@ -266,6 +285,8 @@ static int compare_other(tune_work *w, const tune_result *found, voice *log)
     const crv_status first = tune_view_measure(v, &w->start, &before);
     const crv_status second = tune_view_measure(v, &found->options, &after);
     log->muted = false;
+    if (first == CRV_ERROR_STOPPED || second == CRV_ERROR_STOPPED)
+        return EXIT_DONE;
     if (!report_ok(w->r, first, "other view") || !report_ok(w->r, second, "other view"))
         return EXIT_FAILED;
     tune_print_pair(w, TUNE_OTHER, &before, &after);
@@ -300,8 +321,9 @@ static int tune(tune_work *w, unsigned fits, voice *log)
     int result = load(w);
     if (result != EXIT_DONE)
         return result;
-    if (!report_ok(w->r, tune_view_measure(&w->view[TUNE_FITTED], &w->start, &first),
-                   "estimation"))
+    w->run = progress_begin(w->r, "estimation", 0, 0);
+    if (!has_run(w, tune_view_measure(&w->view[TUNE_FITTED], &w->start, &first),
+                 "estimation"))
         return EXIT_FAILED;
     if (first.correlation < OPPOSITE)
         report_warning(w->r, "the truth is dark where the method is bright; is it "
@@ -339,7 +361,7 @@ static int run(const void *settings, report *r)
     crv_context_desc desc;
     crv_context_desc_init(&desc, sizeof desc);
     desc.logger = (crv_logger){take_line, &log};
-    desc.parallel = progress_loops(r, s->in.view.common.threads.value);
+    desc.progress = (crv_progress){watch_run, &w.run};
     unsigned fits;
     int result = check(s, &fits, r);
     if (result != EXIT_DONE)

@@ -32,6 +32,7 @@ static int trace(tune_work *w, int index)
     tune_view *v = &w->view[index];
     const double start = report_seconds();
     char flags[256];
+    progress p = progress_begin(w->r, "truth", 0, PROGRESS_SHARES);
     const tune_trace t = {
         .model = w->model,
         .g = &w->cast[index],
@@ -42,8 +43,12 @@ static int trace(tune_work *w, int index)
                                        : 0,
         .seconds = w->truth_share * s->time_s.value,
         .stop = tune_work_stop,
+        .watch = progress_share,
+        .user = &p,
     };
-    if (tune_view_trace(v, &t, &w->r->logger) != 0)
+    const int traced = tune_view_trace(v, &t, &w->r->logger);
+    progress_end(&p);
+    if (traced != 0)
         return EXIT_FAILED;
     if (index == TUNE_FITTED)
         w->truth_s = report_seconds() - start;

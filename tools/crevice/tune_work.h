@@ -25,7 +25,8 @@ enum { TUNE_FITTED, TUNE_OTHER, TUNE_VIEWS };
 typedef struct tune_work {
     const tune_settings *s;
     report *r;
-    estimator e; /* its context */
+    estimator e;  /* its context */
+    progress run; /* of a run of it */
     crv_options start;
     scene *model; /* of meshes */
     scene_gbuffer cast[TUNE_VIEWS];

@@ -32,9 +32,9 @@ static void count_release(void *user, void *bytes, size_t size)
     memory_release(bytes);
 }
 
-/* tells: its runs take so long that they say how far they are. */
+/* watch: who is told of its runs, or NULL. */
 static int open_context(const bench_settings *s, const bench_case *c, memory *m,
-                        bool tells, report *r, crv_context **out)
+                        const crv_progress *watch, report *r, crv_context **out)
 {
     crv_context_desc desc;
     crv_context_desc_init(&desc, sizeof desc);
@@ -48,8 +48,8 @@ static int open_context(const bench_settings *s, const bench_case *c, memory *m,
         common.isa = crv_isa_name((crv_isa)c->isa);
         common.exact = c->structure == 1;
     }
-    if (tells)
-        desc.parallel = progress_loops(r, common.threads.value);
+    if (watch)
+        desc.progress = *watch;
     return device_context_in(&common, &desc, r, out);
 }
 
@@ -125,7 +125,7 @@ static int announce(const bench_settings *s, const bench_case *c, float *pixels,
     memory m = {0};
     if (!device_is_cpu(&s->common))
         return EXIT_DONE;
-    const int result = open_context(s, c, &m, false, r, &context);
+    const int result = open_context(s, c, &m, NULL, r, &context);
     if (result != EXIT_DONE)
         return result;
     const double seconds = bench_trial(c, context, pixels);
@@ -145,6 +145,8 @@ int bench_measure(const bench_settings *s, const bench_clock *clock, const bench
     crv_context *context = NULL;
     memory m = {0};
     bool is_long = false;
+    progress p = progress_begin(r, "run", 0, 0);
+    const crv_progress watch = progress_runs(&p);
     *out = (bench_outcome){0};
     int result = pixels && w ? EXIT_DONE : report_no_memory(r);
     if (result == EXIT_DONE) {
@@ -152,12 +154,14 @@ int bench_measure(const bench_settings *s, const bench_clock *clock, const bench
         result = announce(s, c, pixels, r, &is_long);
     }
     if (result == EXIT_DONE)
-        result = open_context(s, c, &m, is_long, r, &context);
+        result = open_context(s, c, &m, is_long ? &watch : NULL, r, &context);
     if (result == EXIT_DONE) {
         w->of = c;
         w->on_device = !device_is_cpu(&s->common) && !c->filter_only;
         w->image = crv_image_packed(pixels, c->scene->width, c->scene->height, 1);
+        p.start = report_seconds();
         result = run_case(clock, context, &m, w, r, out);
+        progress_end(&p);
     }
     if (w) {
         crv_plan_destroy(w->plan);

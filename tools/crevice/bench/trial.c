@@ -3,7 +3,7 @@
 #include "bench/bench.h"
 #include "common/report.h"
 
-enum { ROWS = 16, FEW_COLUMNS = 64, FEW_PIXELS = 128 * 128 };
+enum { COLUMNS = 64, ROWS = 16, FEW_PIXELS = 128 * 128 };
 
 #define ENOUGH_SECONDS 0.05
 
@@ -12,10 +12,10 @@ typedef struct part {
     int32_t x, y, width, height;
 } part;
 
-static part middle(const bench_scene *b, int32_t width)
+static part middle(const bench_scene *b, int32_t width, int32_t height)
 {
     const crv_gbuffer_desc *d = &b->desc;
-    return (part){(d->width - width) / 2, (d->height - ROWS) / 2, width, ROWS};
+    return (part){(d->width - width) / 2, (d->height - height) / 2, width, height};
 }
 
 static crv_const_image cut(crv_const_image plane, const part *of)
@@ -86,13 +86,16 @@ double bench_trial(const bench_case *c, crv_context *context, float *pixels)
 {
     const bench_scene *b = c->scene;
     const double count = (double)b->desc.width * (double)b->desc.height;
-    if (count < FEW_PIXELS || b->width < FEW_COLUMNS || b->height < ROWS)
+    if (count < FEW_PIXELS || b->width < COLUMNS || b->height < ROWS)
         return 0.0;
-    part of = middle(b, FEW_COLUMNS);
-    double seconds = time_part(c, context, &of, pixels);
-    if (seconds < ENOUGH_SECONDS) { /* what plans prepare counts too much */
-        of = middle(b, b->width);
-        seconds = time_part(c, context, &of, pixels);
-    }
+    /* Ever larger parts: in small ones what plans prepare counts too much, of large ones
+     * a method may take minutes. */
+    const part parts[] = {middle(b, ROWS, 1), middle(b, COLUMNS, ROWS),
+                          middle(b, b->width, ROWS)};
+    double seconds = 0.0;
+    int i = 0;
+    for (; i < 3 && seconds < ENOUGH_SECONDS; i++)
+        seconds = time_part(c, context, &parts[i], pixels);
+    const part of = parts[i - 1];
     return seconds * count / ((double)of.width * (double)of.height);
 }
