@@ -30,6 +30,8 @@ crevice_test(test_closed_forms SOURCES test_closed_forms.c quadrature.c LIBS cre
 set_tests_properties(test_closed_forms PROPERTIES LABELS numbers)
 if(CREVICE_SANITIZE MATCHES "thread") # the other properties look at one thread's work
     set(conformance_arguments --threads)
+elseif(CREVICE_SANITIZE)
+    set(conformance_arguments --memory)
 endif()
 crevice_test(test_conformance SOURCES test_conformance.c LIBS crevice_fixture
     ARGS ${conformance_arguments})

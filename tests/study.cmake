@@ -12,4 +12,4 @@ add_test(NAME study_structure COMMAND ${CREVICE_STUDY_PYTHON}
     ${PROJECT_SOURCE_DIR}/study/tests/run.py $<TARGET_FILE:crevice_tool>
     ${CMAKE_CURRENT_BINARY_DIR}/study_structure test_structure.py)
 set_tests_properties(study study_structure PROPERTIES
-    LABELS study TIMEOUT 900 SKIP_RETURN_CODE 77)
+    LABELS study TIMEOUT 900 SKIP_RETURN_CODE 77 COST 100) # among the first to start

@@ -386,7 +386,8 @@ static void for_every_method(void **state)
         (*property)(crv_method_at(m)->name);
 }
 
-/* test_conformance [--threads]: all properties, or the one that threads could break. */
+/* test_conformance [--threads|--memory]: all properties; or the one that threads could
+ * break; or those that read and write at every edge (the others compare numbers). */
 int main(int argc, char **argv)
 {
     static void (*const properties[])(const char *method) = {
@@ -422,6 +423,10 @@ int main(int argc, char **argv)
     if (argc > 1 && strcmp(argv[1], "--threads") == 0) {
         const struct CMUnitTest threads[] = {tests[0]};
         return cmocka_run_group_tests(threads, NULL, NULL);
+    }
+    if (argc > 1 && strcmp(argv[1], "--memory") == 0) {
+        const struct CMUnitTest memory[] = {tests[4], tests[5], tests[7], tests[8]};
+        return cmocka_run_group_tests(memory, NULL, NULL);
     }
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -29,7 +29,7 @@ endforeach()
 set_tests_properties(test_vulkan_agreement PROPERTIES
     LABELS vulkan TIMEOUT 600 SKIP_RETURN_CODE 77)
 set_tests_properties(vulkan_half_deinterleaved ${crevice_vulkan_tests} PROPERTIES
-    LABELS "vulkan;once;long" TIMEOUT 600 SKIP_RETURN_CODE 77)
+    LABELS "vulkan;once;long" TIMEOUT 600 SKIP_RETURN_CODE 77 COST 50)
 
 # Runs of several submissions.
 crevice_test(test_vulkan_long SOURCES test_vulkan_long.c LIBS crevice_fixture)
