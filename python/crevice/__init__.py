@@ -16,6 +16,7 @@ import dataclasses
 import logging
 import math
 import typing
+import warnings
 
 import numpy as np
 
@@ -52,6 +53,9 @@ class Camera:
         """Square pixels, centred. vfov: full vertical field of view, degrees, in (0, 180)."""
         if not 0 < vfov < 180:
             raise InvalidArgument(f"vfov: {vfov} is out of range; it is in (0, 180) degrees")
+        if vfov < 3.2:
+            warnings.warn(f"vfov: {vfov:g} is taken as degrees; {vfov:g} radians are "
+                          f"{math.degrees(vfov):.4g} degrees", stacklevel=2)
         return cls._of(_crevice.camera_perspective(width, height, math.radians(vfov)))
 
     @classmethod
@@ -185,6 +189,10 @@ def ao(depth, normals=None, *, vfov=None, camera=None, radius=None, method=None,
     Raises Error (InvalidArgument is a ValueError, too) and TypeError. Safe to call from
     several threads at once.
     """
+    if return_bent_normal and all(row.key != "bent_normal" for row in options(method)):
+        raise InvalidArgument(
+            f"return_bent_normal: {method or 'the default method'} gives no bent normals; "
+            "choose one of " + ", ".join(row.name for row in methods() if row.bent_normal))
     depth = _plain(depth)
     rows, columns = np.shape(depth)[:2] if np.ndim(depth) in (2, 3) else (0, 0)
     if (vfov is None) == (camera is None):

@@ -180,18 +180,20 @@ static int set_preset(crv_options *out, const char *name)
 int options_from(crv_options *out, const char *method, const char *preset,
                  PyObject *values)
 {
+    messages lines = {.count = 0};
+    const crv_logger logger = messages_logger(&lines);
     if (preset) { /* from the defaults; else on top of what is there */
         if (crv_options_init(out, sizeof *out, method) != CRV_OK) {
-            PyErr_Format(PyExc_ValueError, "method: there is no '%s'", method);
-            return -1;
+            crv_options_init(out, sizeof *out,
+                             NULL); /* for the line that names another */
+            return messages_deliver(&lines,
+                                    crv_options_set(out, "method", method, &logger));
         }
         if (set_preset(out, preset))
             return -1;
     }
     PyObject *key, *value;
     Py_ssize_t at = 0;
-    messages lines = {.count = 0};
-    const crv_logger logger = messages_logger(&lines);
     while (values && PyDict_Next(values, &at, &key, &value)) {
         const char *k = PyUnicode_AsUTF8(key), *v = k ? PyUnicode_AsUTF8(value) : NULL;
         if (!v || messages_deliver(&lines, crv_options_set(out, k, v, &logger)))

@@ -278,6 +278,15 @@ def test_threads(plain):
     assert all(np.array_equal(result, plain) for result in results)
 
 
+def test_what_is_likely_meant():
+    with pytest.warns(UserWarning, match="1.05 radians are 60.16 degrees"):
+        crevice.ao(pit(), vfov=1.05, radius=0.9)
+    with pytest.raises(crevice.InvalidArgument, match="did you mean 'hbao'"):
+        run(pit(), method="hboa")
+    with pytest.raises(crevice.InvalidArgument, match="vo gives no bent normals; choose one of .*gtao"):
+        run(pit(), method="vo", return_bent_normal=True)
+
+
 class Interrupt(Exception):
     """What the handler of the test's signal raises, as Ctrl-C raises KeyboardInterrupt."""
 
