@@ -134,7 +134,7 @@ void crv_context_destroy(crv_context *context)
     if (context->children > 0) {
         crv__log(&context->logger, CRV_LOG_ERROR,
                  "context: not destroyed, since %d of its G-buffers, plans and passes "
-                 "still are in use; destroy them first",
+                 "are still in use; destroy them first",
                  context->children);
         return;
     }
