@@ -160,6 +160,12 @@ at_least "$unlit" 0.001 "rays that are blocked"
 good compare --json t.exr s1.exr --channel R
 # Unfiltered, occlusion takes off 54 %; filtered, at 64 x 36 pixels, 49 to 50.
 at_most "$(number rmse)" "$(awk -v x="$unlit" 'BEGIN { print 0.55 * x }')" "rays and occlusion"
+# shellcheck disable=SC2086
+good render $scene --sky gradient --key-light none -o ao.exr --lit other.exr --sky-rays 256 \
+    --seed 1
+good compare --json t.exr other.exr --channel R
+at_least "$(number rmse)" 0.0001 "other rays with another seed"
+at_most "$(number rmse)" "$(awk -v x="$unlit" 'BEGIN { print x / 4 }')" "noise of 256 rays"
 bad 2 '--sky-rays: is for the lit' render builtin:corner --sky-rays 8 -o out.exr
 bad 2 '--sky-rays: traces no light' render builtin:corner --shade lit --sky-rays 8 \
     --albedo 1 -o out.exr
