@@ -118,3 +118,17 @@ if [ -e /dev/full ]; then
         2>stderr.txt || code=$?
     [ $code -eq 1 ] || fail "exit code $code with standard output full"
 fi
+
+# An interrupt keeps what was measured, and ends the run that it finds.
+# shellcheck disable=SC2086 # words
+"$tool" bench builtin:corner --json --size 320x180 $brief --threads 1 --isa scalar \
+    --method vo,hsao --set steps=256 --set normal_rays=64 >stdout.txt 2>stderr.txt &
+process=$!
+tries=0
+while ! grep -q '^2 of 2: ' stderr.txt && [ $tries -lt 600 ]; do
+    sleep 0.1
+    tries=$((tries + 1))
+done
+ends_now TERM ''
+grep -q '^crevice: bench: interrupted$' stderr.txt || fail "no word of it: $(cat stderr.txt)"
+sound stdout.txt 1

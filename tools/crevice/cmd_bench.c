@@ -7,9 +7,12 @@
 #include "common/device.h"
 #include "common/json.h"
 #include "bench/machine.h"
+#include "system/interrupt.h"
 
 /* Longer than this is announced. */
 #define LONG_SECONDS 10.0
+/* After a signal, to write what was measured. */
+enum { GRACE_S = 5 };
 
 static const arg input_rows[] = {
     {.name = "INPUT",
@@ -407,6 +410,7 @@ static int run(const void *settings, report *r)
         result = check_sets(&b);
     if (result != EXIT_DONE)
         return result;
+    interrupt_hold(GRACE_S);
     bench_clock_open(&b.clock, s->repeats.value, s->seconds.value);
     const machine m = machine_look(0);
     cJSON *root = s->json ? describe(&b, &m) : NULL;
@@ -422,6 +426,8 @@ static int run(const void *settings, report *r)
         cJSON_Delete(root);
     }
     bench_clock_close(&b.clock);
+    fflush(stdout);
+    interrupt_release();
     return result;
 }
 

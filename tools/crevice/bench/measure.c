@@ -6,6 +6,7 @@
 #include "bench/bench.h"
 #include "common/device.h"
 #include "common/progress.h"
+#include "system/interrupt.h"
 #include "system/memory.h"
 
 enum { STEP_RUNS_MAX = 64 };
@@ -80,6 +81,8 @@ static bool run_once(void *data)
 {
     running *w = data;
     const crv_const_image estimate = crv_image_const(w->image);
+    if (interrupt_waits())
+        return false;
     if (w->of->filter_only)
         return crv_plan_filter(w->plan, w->gbuffer, &estimate, &w->image) == CRV_OK;
     return crv_plan_run(w->plan, w->gbuffer, &w->image) == CRV_OK
@@ -109,12 +112,32 @@ static int run_case(const bench_clock *clock, crv_context *context, const memory
     const int64_t before = m->calls;
     if (!bench_time_runs(clock, run_once, w, &out->time)) {
         if (r->errors == 0)
-            report_error(r, "estimation: failed");
+            report_error(r,
+                         interrupt_waits() ? "bench: interrupted" : "estimation: failed");
         return EXIT_FAILED;
     }
     out->allocations = m->calls - before;
     take_steps(w, out);
     return EXIT_DONE;
+}
+
+/* Runs that take longer than this are watched, and so ended by a signal: for shorter ones
+ * it can wait. */
+#define WATCHED_SECONDS 0.5
+
+static int32_t watch_run(void *user, int32_t done, int32_t total)
+{
+    const crv_progress shown = progress_runs(user);
+    shown.fn(shown.user, done, total);
+    return interrupt_waits();
+}
+
+static int32_t stop_trial(void *user, int32_t done, int32_t total)
+{
+    (void)user;
+    (void)done;
+    (void)total;
+    return interrupt_waits();
 }
 
 /* Announces runs that take long. */
@@ -123,16 +146,17 @@ static int announce(const bench_settings *s, const bench_case *c, float *pixels,
 {
     crv_context *context = NULL;
     memory m = {0};
+    const crv_progress stops = {.fn = stop_trial};
     if (!device_is_cpu(&s->common))
         return EXIT_DONE;
-    const int result = open_context(s, c, &m, NULL, r, &context);
+    const int result = open_context(s, c, &m, &stops, r, &context);
     if (result != EXIT_DONE)
         return result;
     const double seconds = bench_trial(c, context, pixels);
     crv_context_destroy(context);
     progress_announce(
         r, c->filter_only ? c->options.filter->name : c->options.method->name, seconds);
-    *is_long = progress_is_long(seconds);
+    *is_long = seconds > WATCHED_SECONDS;
     return EXIT_DONE;
 }
 
@@ -146,7 +170,7 @@ int bench_measure(const bench_settings *s, const bench_clock *clock, const bench
     memory m = {0};
     bool is_long = false;
     progress p = progress_begin(r, "run", 0, 0);
-    const crv_progress watch = progress_runs(&p);
+    const crv_progress watch = {watch_run, &p};
     *out = (bench_outcome){0};
     int result = pixels && w ? EXIT_DONE : report_no_memory(r);
     if (result == EXIT_DONE) {
