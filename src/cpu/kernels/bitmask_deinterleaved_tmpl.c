@@ -22,34 +22,10 @@ typedef struct sectors {
     vf blocked[GROUPS]; /* with bent normals, if sectors weigh differently */
 } sectors;
 
-/* What the place of a point is computed from. F being a (1 - cos^2) plus a multiple of
- * crv__lanes_segment(), it is whole - cos (a cos + Q(sin)), and so it is, with other
- * coefficients, for uniform weighting. */
-typedef struct scale {
-    vf whole, a, Q[4];
-} scale;
-
-CRV__INLINE scale scale_of(const crv__slice_view *w, const crv__group_slice *s,
-                           float offset)
+/* 32 u - zeta in the direction that these are the cosine and sine of, from 0 to 32. */
+CRV__INLINE vf place_of(const crv__group_measure *places, vf cosine, vf sine)
 {
-    const vf zero = vf_zero(), unit = vf_set(SECTORS) * s->inverse;
-    const vf half = vf_set(0.5f * SECTORS) * s->inverse, zeta = vf_set(offset);
-    if (w->params->weighting == CRV_WEIGHTING_UNIFORM)
-        return (scale){.whole = unit - zeta, .a = zero, .Q = {unit, zero, zero, zero}};
-    const vf a = w->a * half, b = s->b * half;
-    return (scale){.whole = vf_fma(b, vf_set(1.57079633f), a - zeta),
-                   .a = a,
-                   .Q = {b * vf_set(1.57020562f), b * vf_set(0.02568289f),
-                         b * vf_set(0.60547927f), b * vf_set(-0.20501906f)}};
-}
-
-/* 32 u - zeta of the direction that these are the cosine and sine of, from 0 to 32. */
-CRV__INLINE vf place_of(const scale *c, vf cosine, vf sine)
-{
-    vf Q = vf_fma(sine, c->Q[3], c->Q[2]);
-    Q = vf_fma(sine, Q, c->Q[1]);
-    Q = vf_fma(sine, Q, c->Q[0]);
-    const vf place = vf_fma(-cosine, vf_fma(c->a, cosine, Q), c->whole);
+    const vf place = crv__group_share(places, cosine, sine);
     return vf_min(vf_max(place, vf_zero()), vf_set(SECTORS));
 }
 
@@ -142,8 +118,8 @@ CRV__INLINE void weigh(sectors *to, const crv__slice_view *w, shape c, vf x, vf 
 
 /* Adds the body whose front is seen at a sample's point. */
 CRV__INLINE void add_body(sectors *to, const crv__slice_view *w,
-                          const crv__group_slice *s, const scale *places, shape c,
-                          const crv__sample *sample, vf x, vf z, vf thickness,
+                          const crv__group_slice *s, const crv__group_measure *places,
+                          shape c, const crv__sample *sample, vf x, vf z, vf thickness,
                           bool with_vectors)
 {
     const vf zero = vf_zero();
@@ -219,7 +195,8 @@ CRV__INLINE vf blocked_share(const crv__group_pixels *at, const crv__list *list,
     const int32_t first = k * at->di->steps, last = first + list->counts[k];
     float offset = w->noise->sector_offset + 0.754878f * (float)k;
     offset -= (float)(int32_t)offset;
-    const scale places = scale_of(w, s, offset);
+    crv__group_measure places = crv__group_measure_of(w, s, SECTORS);
+    places.whole = places.whole - vf_set(offset);
     const vf flat = flatness(w, s, offset);
     sectors found = {.mask = vi_set(0), .occlusion = zero, .start = zero, .last = zero};
     for (int32_t g = 0; vectors && g < GROUPS; g++)

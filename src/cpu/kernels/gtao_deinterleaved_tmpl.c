@@ -5,7 +5,7 @@
 /* What the code is specialised by. */
 typedef struct shape {
     int32_t layers;
-    bool hard; /* no falloff: the last horizon says it all */
+    int32_t falloff; /* none: the last horizon says it all */
     bool orthographic, border;
 } shape;
 
@@ -18,8 +18,8 @@ typedef struct horizon {
 /* Where x and z are 0, the root is a NaN and nothing above. What is as far as the
  * background lies beyond the radius. */
 CRV__INLINE void add_sample(horizon *h, const crv__slice_view *w,
-                            const crv__group_slice *s, shape c, vf x, vf z,
-                            bool with_vectors)
+                            const crv__group_slice *s, const crv__group_measure *m,
+                            shape c, vf x, vf z, bool with_vectors)
 {
     const crv__params *p = w->params;
     const vf zero = vf_zero();
@@ -27,13 +27,14 @@ CRV__INLINE void add_sample(horizon *h, const crv__slice_view *w,
     const vf cosine = z * inverse, q = squared * inverse * w->inverse_radius;
     const vm above =
         vm_and(vf_lt(h->cosine, cosine), vm_and(vf_lt(zero, x), vf_lt(q, vf_set(1))));
-    if (c.hard) {
+    if (c.falloff == CRV_FALLOFF_NONE) {
         h->cosine = vf_select(above, cosine, h->cosine);
         return;
     }
-    const vf measure = crv__lanes_measure(p, w->a, s->b, cosine, x * inverse);
-    const vf open = vf_min(vf_max(measure * s->inverse, zero), h->open);
-    const vf W = crv__lanes_falloff(p, q);
+    const vf share = crv__group_share(m, cosine, x * inverse);
+    const vf open = vf_min(vf_max(share, zero), h->open);
+    const vf W =
+        c.falloff == CRV_FALLOFF_LINEAR ? vf_set(1) - q : crv__lanes_falloff(p, q);
     h->occlusion =
         vf_select(above, vf_fma(h->open - open, W, h->occlusion), h->occlusion);
     h->open = vf_select(above, open, h->open);
@@ -56,8 +57,9 @@ CRV__INLINE crv__lanes_vectors vectors_of(const horizon *h, const crv__params *p
 {
     const vf one = vf_set(1);
     crv__v2 K = h->blocked;
-    if (c.hard || p->attenuation == CRV_ATTENUATION_HORIZON) {
-        const vf W = c.hard ? one : h->weight;
+    const bool is_hard = c.falloff == CRV_FALLOFF_NONE;
+    if (is_hard || p->attenuation == CRV_ATTENUATION_HORIZON) {
+        const vf W = is_hard ? one : h->weight;
         K = (crv__v2){(all.T - h->vector.T) * W, (all.V - h->vector.V) * W};
     }
     return (crv__lanes_vectors){.open = {all.T - K.T, all.V - K.V}, .blocked = K};
@@ -72,23 +74,24 @@ CRV__INLINE vf blocked_share(const crv__group_pixels *at, const crv__list *list,
     const crv__v2 all =
         crv__lanes_vector(w->params, w->a, s->b, s->cos_tangent, s->sin_tangent);
     const int32_t first = k * at->di->steps, last = first + list->counts[k];
+    const crv__group_measure m = crv__group_measure_of(w, s, 1);
     horizon h = {s->cos_tangent, one, zero, zero, all, {zero, zero}};
     for (int32_t i = first; i < last; i++) {
         for (int32_t layer = 0; layer < c.layers; layer++) {
             const vf d = crv__group_slice_depth(at, &list->places[i], layer, c.border);
             vf x, z;
             crv__group_slice_point(w, s, &list->samples[i], d, c.orthographic, &x, &z);
-            add_sample(&h, w, s, c, x, z, vectors);
+            add_sample(&h, w, s, &m, c, x, z, vectors);
         }
     }
-    if (c.hard) {
+    if (c.falloff == CRV_FALLOFF_NONE) {
         const vf rest = vf_max(vf_fma(-h.cosine, h.cosine, one), vf_set(1e-30f));
         const vf sine = rest * vf_rsqrt_fair(rest);
-        const vf measure = crv__lanes_measure(w->params, w->a, s->b, h.cosine, sine);
+        const vf share = crv__group_share(&m, h.cosine, sine);
         h.vector = crv__lanes_vector(w->params, w->a, s->b, h.cosine, sine);
         if (vectors)
             *vectors = vectors_of(&h, w->params, c, all);
-        return one - vf_clamp01(measure * s->inverse);
+        return one - vf_clamp01(share);
     }
     if (vectors)
         *vectors = vectors_of(&h, w->params, c, all);
@@ -98,17 +101,22 @@ CRV__INLINE vf blocked_share(const crv__group_pixels *at, const crv__list *list,
 
 CRV__SLICES_SUMMED
 
-CRV__SLICE_SHAPE(hard, .layers = 1, .hard = true)
-CRV__SLICE_SHAPE(hard_border, .layers = 1, .hard = true, .border = true)
-CRV__SLICE_SHAPE(soft, .layers = 1)
-CRV__SLICE_SHAPE(soft_border, .layers = 1, .border = true)
-CRV__SLICE_BENT_SHAPE(hard_bent, .layers = 1, .hard = true)
-CRV__SLICE_BENT_SHAPE(hard_border_bent, .layers = 1, .hard = true, .border = true)
-CRV__SLICE_BENT_SHAPE(soft_bent, .layers = 1)
+CRV__SLICE_SHAPE(hard, .layers = 1, .falloff = CRV_FALLOFF_NONE)
+CRV__SLICE_SHAPE(hard_border, .layers = 1, .falloff = CRV_FALLOFF_NONE, .border = true)
+CRV__SLICE_SHAPE(linear, .layers = 1, .falloff = CRV_FALLOFF_LINEAR)
+CRV__SLICE_SHAPE(linear_border, .layers = 1, .falloff = CRV_FALLOFF_LINEAR,
+                 .border = true)
+CRV__SLICE_BENT_SHAPE(hard_bent, .layers = 1, .falloff = CRV_FALLOFF_NONE)
+CRV__SLICE_BENT_SHAPE(hard_border_bent, .layers = 1, .falloff = CRV_FALLOFF_NONE,
+                      .border = true)
+CRV__SLICE_BENT_SHAPE(linear_bent, .layers = 1, .falloff = CRV_FALLOFF_LINEAR)
 
 CRV__INLINE shape general_shape(const crv__params *p)
 {
-    return (shape){.layers = p->layers, .orthographic = p->orthographic, .border = true};
+    return (shape){.layers = p->layers,
+                   .falloff = p->falloff,
+                   .orthographic = p->orthographic,
+                   .border = true};
 }
 
 /* Everything else. */
@@ -126,22 +134,24 @@ CRV__NOINLINE vf general_bent(const crv__group_pixels *at, const crv__list *list
 CRV__INLINE vf accessibility(const crv__group_pixels *at, const crv__list *list)
 {
     const crv__params *p = at->frame->params;
-    if (p->layers > 1 || p->orthographic)
-        return general(at, list);
-    if (p->falloff == CRV_FALLOFF_NONE)
+    const bool is_common = p->layers == 1 && !p->orthographic;
+    if (is_common && p->falloff == CRV_FALLOFF_NONE)
         return at->at_border ? hard_border(at, list) : hard(at, list);
-    return at->at_border ? soft_border(at, list) : soft(at, list);
+    if (is_common && p->falloff == CRV_FALLOFF_LINEAR)
+        return at->at_border ? linear_border(at, list) : linear(at, list);
+    return general(at, list);
 }
 
 CRV__INLINE vf estimate(const crv__group_pixels *at, const crv__list *list, crv__v3 *bent)
 {
     const crv__params *p = at->frame->params;
-    if (p->layers > 1 || p->orthographic)
-        return general_bent(at, list, bent);
-    if (p->falloff == CRV_FALLOFF_NONE)
+    const bool is_common = p->layers == 1 && !p->orthographic;
+    if (is_common && p->falloff == CRV_FALLOFF_NONE)
         return at->at_border ? hard_border_bent(at, list, bent)
                              : hard_bent(at, list, bent);
-    return at->at_border ? general_bent(at, list, bent) : soft_bent(at, list, bent);
+    if (is_common && p->falloff == CRV_FALLOFF_LINEAR && !at->at_border)
+        return linear_bent(at, list, bent);
+    return general_bent(at, list, bent);
 }
 
 CRV__DEINTERLEAVED_BENT

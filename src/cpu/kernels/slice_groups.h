@@ -101,6 +101,38 @@ CRV__INLINE crv__group_slice crv__group_slice_at(const crv__group_pixels *at,
     return s;
 }
 
+/* What a share of the slice's measure is computed from. F being a (1 - cos^2) plus a
+ * multiple of crv__lanes_segment(), it is whole - cos (a cos + Q(sin)); and so it is
+ * for uniform weighting, with other coefficients. */
+typedef struct crv__group_measure {
+    vf whole, a, Q[4];
+} crv__group_measure;
+
+/* Of shares in units of 1/parts. */
+CRV__INLINE crv__group_measure crv__group_measure_of(const crv__slice_view *w,
+                                                     const crv__group_slice *s,
+                                                     float parts)
+{
+    const vf zero = vf_zero(), unit = vf_set(parts) * s->inverse;
+    if (w->params->weighting == CRV_WEIGHTING_UNIFORM)
+        return (crv__group_measure){
+            .whole = unit, .a = zero, .Q = {unit, zero, zero, zero}};
+    const vf half = vf_set(0.5f * parts) * s->inverse, a = w->a * half, b = s->b * half;
+    return (crv__group_measure){.whole = vf_fma(b, vf_set(1.57079633f), a),
+                                .a = a,
+                                .Q = {b * vf_set(1.57020562f), b * vf_set(0.02568289f),
+                                      b * vf_set(0.60547927f), b * vf_set(-0.20501906f)}};
+}
+
+/* F/Ft in the direction that these are the cosine and sine of. */
+CRV__INLINE vf crv__group_share(const crv__group_measure *m, vf cosine, vf sine)
+{
+    vf Q = vf_fma(sine, m->Q[3], m->Q[2]);
+    Q = vf_fma(sine, Q, m->Q[1]);
+    Q = vf_fma(sine, Q, m->Q[0]);
+    return vf_fma(-cosine, vf_fma(m->a, cosine, Q), m->whole);
+}
+
 /* The point of the slice at a sample with depth ds. */
 CRV__INLINE void crv__group_slice_point(const crv__slice_view *w,
                                         const crv__group_slice *s,
