@@ -103,7 +103,7 @@ static void test_defaults(void **state)
     assert_int_equal(s.size.height, 3);
     assert_int_equal(s.kind.value, 1);
     assert_false(s.common.radius_given);
-    assert_string_equal(s.common.options.method->name, "hbao");
+    assert_string_equal(s.common.options.method->name, "bitmask");
 }
 
 static void test_values(void **state)
@@ -157,7 +157,7 @@ static void test_presets(void **state)
     /* The last one counts, and only that. */
     assert_int_equal(PARSE(&s, "--preset=ultra", "--preset=medium", "in", "-o", "out"),
                      EXIT_DONE);
-    assert_int_equal(crv_options_init(&expected, sizeof expected, "hbao"), CRV_OK);
+    assert_int_equal(crv_options_init(&expected, sizeof expected, "bitmask"), CRV_OK);
     assert_int_equal(s.common.options.directions, expected.directions);
 }
 
@@ -172,7 +172,7 @@ static void test_a_flag_brings_its_method(void **state)
                      EXIT_DONE);
     assert_string_equal(s.common.options.method->name, "ssao");
     assert_int_equal(PARSE(&s, "-o", "out", "--", "--kind"), EXIT_DONE);
-    assert_string_equal(s.common.options.method->name, "hbao");
+    assert_string_equal(s.common.options.method->name, "bitmask");
 }
 
 static void test_after_two_dashes_all_is_a_name(void **state)

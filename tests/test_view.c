@@ -545,13 +545,13 @@ static void test_commands(void **state)
     w->view.vfov_rad = (float)(40.0 * pi / 180.0);
     command_text(&b.source, w, 0, text);
     assert_string_equal(text, "crevice render builtin:corner --size 96x54 --eye 0.5,1,4 "
-                              "--target 0,0,0 --up 0,1,0 --vfov 40 --method hbao "
+                              "--target 0,0,0 --up 0,1,0 --vfov 40 --method bitmask "
                               "--radius 0.3 -o ao.png");
     w->half[1].content = HALF_TRUTH;
     command_text(&b.source, w, 1, text);
     assert_non_null(strstr(text, "crevice reference builtin:corner --size 96x54"));
     assert_non_null(
-        strstr(text, "--radius 0.3 --weighting uniform --falloff linear --rays 1024"));
+        strstr(text, "--radius 0.3 --weighting cosine --falloff linear --rays 1024"));
     w->half[1].look = LOOK_DIFFERENCE;
     command_text(&b.source, w, 1, text);
     assert_non_null(strstr(text, "&& crevice compare left.exr right.exr --heat-scale"));

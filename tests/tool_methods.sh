@@ -51,6 +51,6 @@ at_most "$(number max_error)" 0 "an option that ssao does not read"
 
 # A single option wins over the preset, wherever it stands.
 good render builtin:sphere --size 32x18 -o a.exr --steps 2 --preset ultra --directions 3
-grep -q '^hbao 3x2, ' stderr.txt || fail "options do not win over the preset"
+grep -q '^bitmask 3x2, ' stderr.txt || fail "options do not win over the preset"
 good render builtin:sphere --size 32x18 -o a.exr --samples 3 --preset paper --method vao
 grep -q '^vao 3 samples, .*box4' stderr.txt || fail "the preset is not that of the method"

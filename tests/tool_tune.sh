@@ -67,7 +67,7 @@ grep -q '^other' stdout.txt || fail "no view from --check-eye"
 
 # A short budget gives options, too.
 good tune builtin:corner --size 64x36 --time 0.5
-grep -q '^options: --method hbao' stdout.txt || fail "nothing in half a second"
+grep -q '^options: --method bitmask' stdout.txt || fail "nothing in half a second"
 
 # What cannot be fitted is one line.
 bad 2 'frame.exr: has no pass of ambient occlusion' tune frame.exr
@@ -107,5 +107,5 @@ kill -TERM $process || fail "it was done before it could be interrupted"
 code=0
 wait $process || code=$?
 [ $code -gt 128 ] || fail "exit code $code after SIGTERM"
-grep -q '^method=hbao$' kept.txt || fail "no options after an interrupt"
-grep -q '^options: --method hbao' stdout.txt || fail "no line of options"
+grep -q '^method=bitmask$' kept.txt || fail "no options after an interrupt"
+grep -q '^options: --method bitmask' stdout.txt || fail "no line of options"

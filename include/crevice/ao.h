@@ -19,7 +19,7 @@ extern "C" {
  *
  * depth: one channel, planar, scene units; for other encodings see crv_depth_convert().
  * normals: three channels, view space, of the same size; NULL: reconstructed from depth.
- * camera: camera.h; not NULL. options: NULL for the defaults of hbao, whose radius of
+ * camera: camera.h; not NULL. options: NULL for the defaults of bitmask, whose radius of
  * 1 scene unit seldom fits: choose about a tenth of the largest thing in view. result:
  * one channel, of the same size. logger: gets the reason for a failure, and warnings;
  * NULL: nobody.

@@ -147,7 +147,7 @@ CRV_API const crv_filter *crv_filter_find(const char *name);
 typedef struct crv_options {
     size_t struct_size; /* set by crv_options_init() */
 
-    const crv_method *method; /* default hbao */
+    const crv_method *method; /* default bitmask */
     const crv_filter *filter; /* NULL: none. Default edges15 */
 
     /* R, radius of influence, scene units, > 0. Default 1, which seldom fits. */
@@ -214,7 +214,7 @@ typedef struct crv_options {
     int32_t bent_normal;
 } crv_options;
 
-/* Sets every option to its default for the named method (NULL: hbao). Pass sizeof
+/* Sets every option to its default for the named method (NULL: bitmask). Pass sizeof
  * *options as struct_size (base.h). Errors: INVALID_ARGUMENT if options is NULL, the size
  * does not fit, or there is no such method (options untouched). */
 CRV_API crv_status crv_options_init(crv_options *options, size_t struct_size,
@@ -236,7 +236,7 @@ typedef enum crv_option_type {
     CRV_OPTION_CHOICE = 3 /* an enum, by name */
 } crv_option_type;
 
-/* A row of the table. Static storage. */
+/* A row of the table; the default is hbao's. Static storage. */
 typedef struct crv_option {
     const char *key; /* "max_radius_px": the name of the struct's member */
     crv_option_type type;

@@ -327,10 +327,10 @@ def test_no_references_are_lost():
     with open("/proc/self/statm", encoding="ascii") as statm:
         gc.collect()
         for _ in range(200):
-            crevice.ao(tiny, vfov=60, radius=1, threads=1)
+            crevice.ao(tiny, vfov=60, radius=1, threads=1, method="hbao")
         start = int(statm.read().split()[1])
     for _ in range(10000):
-        crevice.ao(tiny, vfov=60, radius=1, threads=1)
+        crevice.ao(tiny, vfov=60, radius=1, threads=1, method="hbao")
     with pytest.raises(ValueError):
         run(depth, method="nothing")
     with open("/proc/self/statm", encoding="ascii") as statm:

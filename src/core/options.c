@@ -246,7 +246,7 @@ static crv_options defaults_of(const crv_method *method)
 
 crv_status crv_options_init(crv_options *options, size_t struct_size, const char *method)
 {
-    const crv_method *chosen = crv_method_find(method ? method : "hbao");
+    const crv_method *chosen = crv_method_find(method ? method : "bitmask");
     if (!chosen)
         return CRV_ERROR_INVALID_ARGUMENT;
     const crv_options defaults = defaults_of(chosen);
