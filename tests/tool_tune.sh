@@ -82,7 +82,7 @@ bad 1 'no channel' tune frame.exr --truth truth.exr:OA
 bad 1 'not_here.exr' tune frame.exr --truth not_here.exr
 bad 2 '--time: "0" is not valid' tune frame.exr --truth truth.exr --time 0
 bad 2 '--evaluations: "0" is not valid' tune frame.exr --truth truth.exr --evaluations 0
-bad 2 '--fit: "radius,depth" is not of hbao' tune frame.exr --fit radius,depth
+bad 2 '--fit: "radius,depth" is not of bitmask' tune frame.exr --fit radius,depth
 bad 2 '--fit: "thickness" is not of' tune frame.exr --method vo --fit thickness
 bad 2 "are for meshes" tune frame.exr --eye 1,2,3
 bad 2 'is for frames' tune builtin:courtyard --truth truth.exr
