@@ -71,6 +71,7 @@ grep -q '^crevice: warning: .*nothing in view is occluded' stderr.txt || fail "w
 # Antialiasing is the mean of a larger picture.
 good render builtin:corner --size 48x28 --aa 3 -o fine.exr --radius 0.5 --guard-px 4
 grep -q '^G-buffer 144x84, guard band 12 px' stderr.txt || fail "--aa 3 is not three times"
+grep -q 'warning' stderr.txt && fail "--aa warns of what nobody asked for"
 good render builtin:corner --size 144x84 -o large.exr --radius 0.5 --guard-px 12
 good compare --json fine.exr fine.exr
 fine=$(number mean_a)

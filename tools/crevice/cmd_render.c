@@ -371,6 +371,14 @@ static void free_work(work *w)
     scene_free(w->model);
 }
 
+/* Lengths in pixels that the method does not read stay as they are: it would be said that
+ * they are not used. */
+static void enlarge(float *value_px, const char *key, const crv_options *o, int32_t n)
+{
+    if (crv_option_applies(crv_option_find(key), o->method, NULL))
+        *value_px = fminf(*value_px * (float)n, (float)CRV_MAX_SIZE);
+}
+
 /* The settings of the larger picture that antialiasing takes the mean of. */
 static render_settings enlarged(const render_settings *given)
 {
@@ -382,8 +390,8 @@ static render_settings enlarged(const render_settings *given)
     s.view.guard_px = (arg_int){.given = true, .value = n * view_guard_px(&given->view)};
     s.view.size.width *= n;
     s.view.size.height *= n;
-    o->max_radius_px = fminf(o->max_radius_px * (float)n, (float)CRV_MAX_SIZE);
-    o->band_px = fminf(o->band_px * (float)n, (float)CRV_MAX_SIZE);
+    enlarge(&o->max_radius_px, "max_radius_px", o, n);
+    enlarge(&o->band_px, "band_px", o, n);
     return s;
 }
 
