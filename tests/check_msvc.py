@@ -27,7 +27,7 @@ FOREIGN = re.compile(r"\b(__builtin_\w+|__attribute__|__extension__|__typeof__|t
 LOOP = re.compile(r"#pragma omp[^\n]*\bfor\b[^\n]*\n(?!\s*for \(\w+ = )")
 
 # MinGW's attributes stand where MSVC's may not; its INFINITY is a function's result, where
-# MSVC's is a constant; and its windows.h wants the intrinsics of gcc: the library uses three
+# MSVC's is a constant; and its windows.h wants the intrinsics of gcc: the library uses a few
 # functions of it.
 PRELUDE = """#include <_mingw.h>
 #undef __MINGW_ATTRIB_NORETURN
@@ -46,6 +46,7 @@ HMODULE LoadLibraryA(const char *name);
 FARPROC GetProcAddress(HMODULE from, const char *name);
 int FreeLibrary(HMODULE one);
 LONG InterlockedIncrement(LONG volatile *counter);
+LONG InterlockedCompareExchange(LONG volatile *counter, LONG value, LONG expected);
 unsigned long WaitForSingleObject(HANDLE one, unsigned long ms);
 int CloseHandle(HANDLE one);
 void GetSystemInfo(SYSTEM_INFO *out);
