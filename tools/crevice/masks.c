@@ -99,7 +99,7 @@ int masks_open(const ao_settings *s, const char *input, const io_frame *frame,
             + frame->desc.guard_left;
         float *to = ao->channels[0].data + (size_t)y * (size_t)ao->width;
         for (int32_t x = 0; x < ao->width; x++)
-            to[x] = 1.0f - from[x] * (1.0f - to[x]);
+            to[x] += (1.0f - from[x]) * (1.0f - to[x]);
     }
     free(coverage);
     return EXIT_DONE;
