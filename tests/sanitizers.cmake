@@ -21,7 +21,8 @@ if(CREVICE_SANITIZE MATCHES "thread")
 else()
     set(environment
         "ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1"
-        "UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1")
+        "UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1"
+        "LSAN_OPTIONS=suppressions=${CMAKE_CURRENT_SOURCE_DIR}/leaks.txt:print_suppressions=0")
 endif()
 
 # Drivers that compute on the CPU leave memory of LLVM's behind when they are unloaded, and
