@@ -90,6 +90,10 @@ static double put_small_float(const texel_layout *t, int k, double value, void *
     const double size = bits == 16 || value > 0 ? fabs(value) : 0;
     if (size == 0)
         return 0;
+    if (isinf(size)) {
+        put_bits(t, k, (31u << m) | (bits == 16 && value < 0 ? 1u << 15 : 0), texel);
+        return value;
+    }
     int exponent = ilogb(size) < -14 ? -14 : ilogb(size);
     const double held = rint(ldexp(size, m - exponent)); /* steps of the last place */
     const uint32_t most = 1u << m;
