@@ -6,6 +6,7 @@
  */
 #include "fixture.h"
 
+#include <stdio.h>
 #include <string.h>
 
 enum { WIDTH = 300, HEIGHT = 100, COUNT = WIDTH * HEIGHT };
@@ -83,7 +84,7 @@ static void end_everywhere(const char *method, const char *filter, bool exact,
     assert_int_equal(crv_plan_create(f.context, &options, &f.desc, &plan), CRV_OK);
     assert_int_equal(run(&f, plan, expected), CRV_OK);
     const int32_t calls = l.calls;
-    print_message("%s %s: %d calls in %d steps\n", method, filter, calls, l.steps);
+    printf("%s %s: %d calls in %d steps\n", method, filter, calls, l.steps);
     assert_true(calls >= steps);
     assert_int_equal(l.steps, steps);
     for (int32_t stop_at = 1; stop_at <= calls; stop_at++) {
