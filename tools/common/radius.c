@@ -55,15 +55,18 @@ static bool find_quantile(const float *values, size_t count, double share, doubl
     return true;
 }
 
-/* The finite depth that this share of them is nearer than; 0 if there is none. */
-static int depth_of_share(estimator *e, double share, double *out, report *r)
+/* The finite depths that these shares of them are nearer than; 0 if there is none. */
+static int depths_of_shares(estimator *e, const double *shares, int count, double *out,
+                            report *r)
 {
     float *depth = NULL;
     const int result = estimate_depth(e, &depth, r);
     if (result != EXIT_DONE)
         return result;
-    const bool done =
-        find_quantile(depth, (size_t)e->desc.width * (size_t)e->desc.height, share, out);
+    bool done = true;
+    for (int i = 0; i < count && done; i++)
+        done = find_quantile(depth, (size_t)e->desc.width * (size_t)e->desc.height,
+                             shares[i], &out[i]);
     free(depth);
     return done ? EXIT_DONE : report_no_memory(r);
 }
@@ -81,33 +84,37 @@ static double height_at(const io_frame *frame, double depth)
     return frame->camera.projection == CRV_PERSPECTIVE ? height * depth : height;
 }
 
+/* The radius that suits a view with this median depth; 0 if it shows nothing. */
+static float usual_radius(const io_frame *frame, double median)
+{
+    const crv_option *option = crv_option_find("radius");
+    if (median <= 0.0)
+        return 0.0f;
+    /* Within what the option takes, however odd the depth. */
+    return (float)fmin(fmax(two_digits(0.05 * height_at(frame, median)), option->min),
+                       option->max);
+}
+
 int radius_suggest(estimator *e, const io_frame *frame, float *out, report *r)
 {
+    const double share = 0.5;
     double median = 0.0;
-    const int result = depth_of_share(e, 0.5, &median, r);
-    const crv_option *option = crv_option_find("radius");
-    *out = 0.0f;
-    if (result != EXIT_DONE || median <= 0.0)
-        return result;
-    /* Within what the option takes, however odd the depth. */
-    *out = (float)fmin(fmax(two_digits(0.05 * height_at(frame, median)), option->min),
-                       option->max);
-    return EXIT_DONE;
+    const int result = depths_of_shares(e, &share, 1, &median, r);
+    *out = usual_radius(frame, median);
+    return result;
 }
 
 int radius_check(estimator *e, const io_frame *frame, float radius, const char *input,
                  report *r)
 {
     const double too_many_heights = 10.0;
-    double near = 0.0, median = 0.0;
-    float usual = 0.0f;
-    int result = depth_of_share(e, 0.05, &near, r);
-    if (result == EXIT_DONE)
-        result = depth_of_share(e, 0.5, &median, r);
-    if (result == EXIT_DONE)
-        result = radius_suggest(e, frame, &usual, r);
+    const double shares[] = {0.05, 0.5};
+    double depths[2] = {0.0, 0.0};
+    const int result = depths_of_shares(e, shares, 2, depths, r);
+    const double near = depths[0], median = depths[1];
     if (result != EXIT_DONE || near <= 0.0)
         return result;
+    const double usual = (double)usual_radius(frame, median);
     const double near_px =
         (double)radius / height_at(frame, near) * frame->image.display_height;
     const double heights = (double)radius / height_at(frame, median);
@@ -116,12 +123,12 @@ int radius_check(estimator *e, const io_frame *frame, float radius, const char *
                        "%s: the radius %g is %.2g pixels wide on near surfaces, too "
                        "little to darken any; is depth in another unit? Without "
                        "--radius it would be %g",
-                       input, (double)radius, near_px, (double)usual);
+                       input, (double)radius, near_px, usual);
     else if (heights > too_many_heights)
         report_warning(r,
                        "%s: the radius %g is %.2g times the height of the view at the "
                        "median depth; is depth in another unit? Without --radius it "
                        "would be %g",
-                       input, (double)radius, heights, (double)usual);
+                       input, (double)radius, heights, usual);
     return EXIT_DONE;
 }
