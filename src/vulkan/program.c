@@ -118,8 +118,8 @@ static crv_status take_estimate(crv__program *p, const crv__setup *setup, int32_
 }
 
 /* box4 takes taps whole or not at all, which the error of a half float would turn over:
- * 1.8 % of the pixels of a noisy frame differed by more than 2e-3. edges15 computes
- * little. */
+ * 1.8 % of the pixels of a noisy frame differed by more than 2e-3. edges15 was not tried.
+ */
 static bool has_half(const crv_filter *filter)
 {
     return strcmp(filter->name, "box4") != 0 && strcmp(filter->name, "edges15") != 0;
