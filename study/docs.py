@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from . import performance
+from . import frames, performance
 from .measure import Study
 from .options import PRESETS
 from .sections import bent, filters
@@ -16,7 +16,7 @@ from .tables import markdown, number, rewrite
 from .tool import HOME, ToolError
 
 DOCS = HOME / "docs"
-PARTS = ("courtyard", "filters", "bent", "meshes", "performance", "gpu")
+PARTS = ("courtyard", "filters", "bent", "meshes", "frames", "performance", "gpu")
 SHOWN = ("medium", "high")
 
 
@@ -25,7 +25,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help=f"measure a part of the tables in docs/ and write them: one of "
                              f"{', '.join(PARTS)}; may be given again. All but courtyard "
                              "take the views of --views, else those of the folder "
-                             "CREVICE_SHARED. Let the machine do nothing else meanwhile")
+                             "CREVICE_SHARED; frames are those in blender/NAME.exr beside "
+                             "the list. Let the machine do nothing else meanwhile")
     parser.add_argument("--pages", type=Path, default=DOCS, metavar="DIR",
                         help="the folder of the pages to rewrite [docs]")
 
@@ -178,8 +179,9 @@ def report_of(folder: Path, words: list[str]) -> dict[str, Any]:
     return report
 
 
-def run(arguments: argparse.Namespace, make_study: Any) -> None:
-    """make_study(arguments, page) gives the study of the views in the arguments."""
+def run(arguments: argparse.Namespace, make_study: Any, make_tool: Any) -> None:
+    """make_study(folder, lists) gives the study of the views of the lists, make_tool(folder)
+    the tool alone."""
     common = ["--tool", arguments.tool] if arguments.tool else []
     common += ["--quick"] if arguments.quick else []
     lists = arguments.views or shared_list()
@@ -200,6 +202,9 @@ def run(arguments: argparse.Namespace, make_study: Any) -> None:
             size = small or ["--size", "1280x720"]
             write(arguments.pages, meshes_parts(report_of(
                 folder, [*given, "--only", "missing", *common, *size])))
+        elif part == "frames":
+            write(arguments.pages, {"methods.md": {
+                "frames-rmse": frames.table(make_tool(folder), lists)}})
         else:
             s = make_study(folder, lists)
             write(arguments.pages, performance_parts(s) if part == "performance"

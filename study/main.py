@@ -111,9 +111,14 @@ def make_study(arguments: argparse.Namespace, tool: Tool, page: Page) -> Study:
                  is_quick)
 
 
+def in_folder(arguments: argparse.Namespace, folder: Path) -> argparse.Namespace:
+    return argparse.Namespace(**vars(arguments) | {"output": folder})
+
+
 def docs_study(arguments: argparse.Namespace, folder: Path, lists: list[str]) -> Study:
     """The study that docs/ is measured with: its views are those of the lists."""
-    chosen = argparse.Namespace(**vars(arguments) | {"output": folder, "views": lists})
+    chosen = in_folder(arguments, folder)
+    chosen.views = lists
     chosen.size = chosen.size or (1280, 720)
     return make_study(chosen, make_tool(chosen), Page(folder))
 
@@ -162,7 +167,8 @@ def main(words: list[str]) -> int:
     try:
         refuse_inputs(arguments)
         if arguments.docs:
-            docs.run(arguments, lambda folder, lists: docs_study(arguments, folder, lists))
+            docs.run(arguments, lambda folder, lists: docs_study(arguments, folder, lists),
+                     lambda folder: make_tool(in_folder(arguments, folder)))
             return 0
         study = make_study(arguments, make_tool(arguments), Page(arguments.output))
         run(study, steps_of(study, arguments.only))

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The tables of docs/: every part has its marks, and a small run fills them all."""
+import json
 import shutil
+import subprocess
 
 import pytest
 from conftest import ROOT, study
@@ -55,6 +57,31 @@ def test_meshes_and_performance_are_written(tool, folder, tmp_path, monkeypatch)
     times = (pages / "performance.md").read_text(encoding="utf-8")
     for words in ("`corner`, 192x108:", "| `corner` | `hbao` 8x8 | `none` |", "| `crevice ao` |"):
         assert words in times
+
+
+def test_a_frame_beside_the_list_is_measured(tool, folder, tmp_path, monkeypatch):
+    monkeypatch.delenv("CREVICE_SHARED", raising=False)
+    views = {"views": [{"name": name, "file": "builtin:corner", "eye": [5, 3.5, 1], "radius": 1,
+                        "target": [0.8, 0.4, 0], "vfov_degrees": 45}
+                       for name in ("framed", "frameless")]}
+    (tmp_path / "list.json").write_text(json.dumps(views), encoding="utf-8")
+    (tmp_path / "blender").mkdir()
+    frame = tmp_path / "frame.exr"
+    subprocess.run([tool, "gbuffer", "builtin:corner", "--size", "128x72", "--guard-px", "0",
+                    "-o", frame], check=True)
+    # Its pass is what the default makes without falloff: 0 in that column alone.
+    subprocess.run([tool, "ao", frame, "--vfov", "45", "--radius", "1", "--falloff", "none",
+                    "--append", "-o", tmp_path / "blender" / "framed.exr"], check=True)
+    pages = copy_of_pages(tmp_path)
+    done = study(tool, folder / "docs", "--views", str(tmp_path / "list.json"), "--docs",
+                 "frames", "--pages", str(pages))
+    assert done.returncode == 0, done.stderr
+    page = (pages / "methods.md").read_text(encoding="utf-8")
+    part = page.partition("<!-- frames-rmse -->")[2].partition("<!-- end")[0].strip().splitlines()
+    heads, row = ([cell.strip() for cell in line.strip("|").split("|")]
+                  for line in (part[0], part[2]))
+    assert len(part) == 3 and row[0] == "framed"
+    assert [h for h, cell in zip(heads, row) if cell == "0.0000"] == ["no option", "`bitmask`"]
 
 
 def copy_of_pages(folder):

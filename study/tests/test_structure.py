@@ -39,7 +39,7 @@ def study(tool, folder) -> Study:
 
 @pytest.fixture(scope="module")
 def views(study) -> dict[str, View]:
-    return {entry["name"]: framed(study.tool, entry, 480, 270)
+    return {entry["name"]: framed(study.tool, entry, 320, 180)
             for entry in COURTYARD + shared_entries()}
 
 
