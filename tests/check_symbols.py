@@ -40,20 +40,28 @@ def room_of(path):
     return match.group(1) if match and match.group(1) in ROOMS else None
 
 
-def symbols_of(nm, path):
-    """Names that an object defines, and names that it wants from others."""
-    lines = subprocess.run([nm, "-g", path], check=True, capture_output=True,
+def tables_of(nm, words, paths):
+    """The lines that nm prints of each object, by the object's path."""
+    lines = subprocess.run([nm, "-A", *words, *paths], check=True, capture_output=True,
                            text=True).stdout.splitlines()
+    tables = {path: [] for path in paths}
+    for line in lines:
+        path, found, rest = line.partition(".o:")
+        if found and rest:  # else a heading
+            tables[path + ".o"].append(rest)
+    return tables
+
+
+def symbols_of(lines):
+    """Names that an object defines, and names that it wants from others."""
     pairs = [line.split()[-2:] for line in lines if line.strip()]
     defined = {name for kind, name in pairs if kind != "U"}
     wanted = {name for kind, name in pairs if kind == "U"}
     return defined, wanted
 
 
-def variables_of(nm, path):
-    """Names of what can be written to: the last of nm's columns is the section."""
-    lines = subprocess.run([nm, "-f", "sysv", path], check=True, capture_output=True,
-                           text=True).stdout.splitlines()
+def variables_of(lines):
+    """Names of what can be written to: the last of the columns is the section."""
     rows = [[cell.strip() for cell in line.split("|")] for line in lines if "|" in line]
     return [row[0] for row in rows if VARIABLES.match(row[-1]) and row[3] == "OBJECT"]
 
@@ -62,16 +70,17 @@ def main(nm, paths):
     faults = 0
     homes = {}
     wants = []
+    symbols, sections = tables_of(nm, ["-g"], paths), tables_of(nm, ["-f", "sysv"], paths)
     for path in paths:
         room = room_of(path)
         if room is None:
             print(f"{path}: lies in no room; add its folder to {__file__}")
             faults += 1
             continue
-        defined, wanted = symbols_of(nm, path)
+        defined, wanted = symbols_of(symbols[path])
         homes.update((name, room) for name in defined)
         wants.append((path, room, wanted))
-        for name in variables_of(nm, path):
+        for name in variables_of(sections[path]):
             print(f"{path}: has a variable {name}, which all calls would share")
             faults += 1
         for name in sorted(filter(FORBIDDEN.match, wanted)):
