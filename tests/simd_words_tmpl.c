@@ -150,6 +150,10 @@ static void check_comparisons(simd_random *r)
         expect_float("vf_where", i, x < y ? x : 0, taken(vf_where(lt, va)).lane[i]);
         expect_int("vi_select", i, x < y ? m.lane[i] : n.lane[i],
                    taken_ints(vi_select(lt, vm_, vn)).lane[i]);
+        expect_int("vi_min", i, m.lane[i] < n.lane[i] ? m.lane[i] : n.lane[i],
+                   taken_ints(vi_min(vm_, vn)).lane[i]);
+        expect_int("vi_max", i, m.lane[i] > n.lane[i] ? m.lane[i] : n.lane[i],
+                   taken_ints(vi_max(vm_, vn)).lane[i]);
         expect_float("vf_min", i, least(x, y), taken(vf_min(va, vb)).lane[i]);
         expect_float("vf_max", i, most(x, y), taken(vf_max(va, vb)).lane[i]);
         expect_float("vf_clamp01", i, least(most(x, 0), 1),
@@ -242,6 +246,13 @@ static void check_approximations(simd_random *r)
         const double bound = x < -87 ? 1e-37 : exp(x) * 2e-7 * (1 + fabs(x));
         if (!(fabs((double)power.lane[i] - exp(x)) <= bound))
             fault("vf_exp", i, exp(x), (double)power.lane[i]);
+    }
+    for (int32_t n = 1; n <= 32; n++) {
+        const float part = taken(vi_rcp(vi_set(n))).lane[N - 1];
+        if (!(fabs((double)part * n - 1) < 4e-4))
+            fault("vi_rcp", n, 1.0 / n, (double)part);
+        if (!isfinite(taken(vi_rcp(vi_set(n - 33))).lane[0]))
+            fault("vi_rcp of none", n, 0, NAN);
     }
     const float at_zero = taken(vf_rsqrt_rough(vf_zero())).lane[0];
     if (isfinite(at_zero))

@@ -18,34 +18,40 @@ typedef struct shape {
 typedef struct sectors {
     vi mask;
     vf occlusion, start;
-    vf last;            /* z - 16 x of the sample before */
+    vf last;            /* climb of the sample before */
     vf blocked[GROUPS]; /* with bent normals, if sectors weigh differently */
 } sectors;
 
-/* 32 u - zeta in the direction that these are the cosine and sine of, from 0 to 32. */
-CRV__INLINE vf place_of(const crv__group_measure *places, vf cosine, vf sine)
+/* The sector limit at or above the direction that these are the cosine and sine of:
+ * 32 u - zeta rounded up. */
+CRV__INLINE vi limit_of(const crv__group_measure *places, vf cosine, vf sine)
 {
-    const vf place = crv__group_share(places, cosine, sine);
-    return vf_min(vf_max(place, vf_zero()), vf_set(SECTORS));
+    return vi_max(vi_ceil(crv__group_share(places, cosine, sine)), vi_set(0));
 }
 
 /*
- * `flat` of a slice. A front that rises over the tangent by an angle delta has at most
+ * A front at x, h over the tangent along V, rises over it by an angle delta. It blocks no
+ * sector if it leaves less than Ft (1 - zeta)/32 of the measure below it, which is
  *
- *     cosine:   |(a, b)| (1 - cos delta) < |(a, b)| sin^2(delta)/1.9
- *     uniform:  delta < 1.1 sin(delta)
+ *     cosine:   at most |(a, b)| (1 - cos delta) < |(a, b)| tan^2(delta)/2
+ *     uniform:  at most delta < tan(delta)
  *
- * of the measure below it, with sin(delta) = h a/(|(a, b)| r), h its height over the
- * tangent along V. It blocks no sector if that is less than Ft (1 - zeta)/32, for which
- * flat h^2 < r^2 suffices. Tangents by which delta may be obtuse get no such limit.
+ * With t the tangent for which these bounds are that much, and since
+ * tan(delta) = h/(x (1 + (b/a)^2) - h b/a), no sector is blocked if h < rise x,
+ *
+ *     rise = t (1 + (b/a)^2)/(1 + t b/a)
  */
-CRV__INLINE vf flatness(const crv__slice_view *w, const crv__group_slice *s, float offset)
+CRV__INLINE vf least_rise(const crv__slice_view *w, const crv__group_slice *s,
+                          float offset)
 {
-    const vf share = s->inverse * vf_set(1.2f * SECTORS / (1 - offset));
-    const bool is_uniform = w->params->weighting == CRV_WEIGHTING_UNIFORM;
-    const vf limit = is_uniform ? s->sin_tangent * share * (s->sin_tangent * share)
-                                : s->sin_tangent * w->a * share * vf_set(0.5f);
-    return vf_select(vf_lt(s->cos_tangent, vf_set(-0.9f)), vf_set(1e30f), limit);
+    const vf one = vf_set(1), bound = s->total * vf_set((1 - offset) / SECTORS);
+    vf t = bound;
+    if (w->params->weighting == CRV_WEIGHTING_COSINE) {
+        const vf squared = vf_set(2) * bound * s->sin_tangent * w->inverse_a;
+        t = squared * vf_rsqrt_fair(squared);
+    }
+    const vf whole = vf_fma(s->b_over_a, s->b_over_a, one);
+    return vf_set(0.998f) * t * whole * vf_rcp_rough(vf_fma(t, s->b_over_a, one));
 }
 
 CRV__INLINE void add_groups(sectors *to, vf weight, vi bits)
@@ -91,137 +97,168 @@ CRV__INLINE vf thickness_of(const crv__slice_view *w, shape c, vf run, vf width)
     return vf_set(w->params->thickness) * w->scale;
 }
 
-/* Weighs the bits that are new. bits: the body's; count: how many, or any number of none.
- */
+/* Weighs the bits that are new, of `count` that the body has; any number of none. */
 CRV__INLINE void weigh(sectors *to, const crv__slice_view *w, shape c, vf x, vf z,
-                       vi bits, vf count, bool with_vectors)
+                       vi bits, vi count, bool with_vectors)
 {
     const vi new_bits = bits & ~to->mask;
     const vf added = vf_of(vi_count_bits(new_bits));
-    const vm is_new = vf_lt(vf_zero(), added);
     const vf squared = vf_fma(x, x, z * z);
     const vf r = vf_min(squared * vf_rsqrt_fair(squared), w->radius);
-    const vf middle = vf_fma(vf_set(-0.7f) * (r - x), added * vf_rcp_rough(count), r);
+    const vf share = added * vi_rcp(count);
+    const vf middle = vf_fma(vf_set(-0.7f) * (r - x), share, r);
     const bool is_linear = c.falloff == CRV_FALLOFF_LINEAR;
     if (is_linear)
-        to->occlusion =
-            vf_select(is_new, vf_fma(middle, added, to->occlusion), to->occlusion);
+        to->occlusion = vf_fma(middle, added, to->occlusion);
     if (is_linear && !with_vectors)
         return;
     const vf q = vf_min(middle * w->inverse_radius, vf_set(CRV__BELOW_ONE));
-    const vf W = vf_where(is_new, crv__lanes_falloff(w->params, q));
+    const vf W = crv__lanes_falloff(w->params, q);
     if (!is_linear)
         to->occlusion = vf_fma(W, added, to->occlusion);
     if (with_vectors)
         add_groups(to, W, new_bits);
 }
 
+/* What a slice's bodies are measured by. */
+typedef struct scale {
+    crv__group_measure places;
+    vf rise; /* least_rise() */
+} scale;
+
+/* Samples some lanes of which see something above their tangent. Those of all slices are
+ * collected before any is added: that takes long, and few branches. */
+enum { MOST_STEPS = 16, MOST_RISEN = MOST_STEPS * CRV__SLICES_AT_ONCE };
+
+typedef struct risen {
+    vf x, height; /* over the tangent, along V */
+    vf run;       /* how far along the slice its surface has been seen */
+    vf width;     /* at borders, where it is costly to find again */
+    int32_t index, slice;
+} risen;
+
+CRV__INLINE vf width_of(const crv__group_pixels *at, const crv__list *list, shape c,
+                        const risen *r)
+{
+    if (c.rule != CRV_THICKNESS_WIDTH)
+        return vf_zero();
+    return c.border ? r->width : width_at(at, &list->places[r->index], false);
+}
+
 /* Adds the body whose front is seen at a sample's point. */
-CRV__INLINE void add_body(sectors *to, const crv__slice_view *w,
-                          const crv__group_slice *s, const crv__group_measure *places,
-                          shape c, const crv__sample *sample, vf x, vf z, vf thickness,
+CRV__INLINE void add_body(sectors *to, const crv__group_pixels *at, const crv__list *list,
+                          const crv__slice_view *w, const crv__group_slice *s,
+                          const crv__group_measure *places, shape c, const risen *r,
                           bool with_vectors)
 {
-    const vf zero = vf_zero();
+    const crv__sample *sample = &list->samples[r->index];
+    const vf zero = vf_zero(), x = r->x;
+    const vf thickness = thickness_of(w, c, r->run, width_of(at, list, c, r));
     const vf front_x = x * vf_set(sample->front), back_x = x * vf_set(sample->far);
     const vf rest = vf_max(vf_fma(-front_x, front_x, w->radius2), vf_set(1e-30f));
     const vf end = rest * vf_rsqrt_fair(rest);
-    const vf raised_z = vf_fma(s->b_over_a, x - front_x, z);
-    const vf front_z = vf_min(raised_z, end), back_z = vf_max(z - thickness, zero - end);
+    const vf z = vf_fma(-s->b_over_a, x, r->height);
+    const vf front_z = vf_min(vf_fma(-s->b_over_a, front_x, r->height), end);
+    const vf back_z = vf_max(z - thickness, zero - end);
     const vf front_inverse = vf_rsqrt_fair(vf_fma(front_x, front_x, front_z * front_z));
     const vf back_inverse = vf_rsqrt_fair(vf_fma(back_x, back_x, back_z * back_z));
     const vf front_cosine = front_z * front_inverse, back_cosine = back_z * back_inverse;
     const vm there = vm_and(vm_and(vf_lt(zero, x), vf_lt(back_z, front_z)),
                             vf_lt(s->cos_tangent, front_cosine));
-    const vf front = place_of(places, front_cosine, front_x * front_inverse),
-             back = place_of(places, back_cosine, back_x * back_inverse);
-    const vi first = vi_ceil(front),
-             last = vi_ceil(
-                 vf_select(vf_lt(s->cos_tangent, back_cosine), back, vf_set(SECTORS)));
+    const vi first = limit_of(places, front_cosine, front_x * front_inverse),
+             back = limit_of(places, back_cosine, back_x * back_inverse);
+    const vi last = vi_select(vf_lt(s->cos_tangent, back_cosine),
+                              vi_min(back, vi_set(SECTORS)), vi_set(SECTORS));
     const vi bits = vi_select(there, vi_from_bit(first) & ~vi_from_bit(last), vi_set(0));
     if (c.falloff != CRV_FALLOFF_NONE)
-        weigh(to, w, c, x, z, bits, vf_of(last - first), with_vectors);
+        weigh(to, w, c, x, z, bits, last - first, with_vectors);
     to->mask = to->mask | bits;
 }
 
-/* Samples of a slice some lanes of which see something above their tangent. They are
- * collected before any is added: that takes long, and few branches. */
-enum { MOST_RISEN = 16 };
-
-typedef struct risen {
-    vf x[MOST_RISEN], z[MOST_RISEN], thickness[MOST_RISEN];
-    int32_t index[MOST_RISEN];
-} risen;
-
-/* Collects those of samples `first` to last - 1. Returns how many. */
-CRV__INLINE int32_t collect(risen *r, sectors *so_far, const crv__group_pixels *at,
-                            const crv__list *list, const crv__slice_view *w,
-                            const crv__group_slice *s, vf flat, shape c, int32_t first,
-                            int32_t last)
+/* Collects those of samples `first` to last - 1 of slice k. */
+CRV__INLINE risen *collect(risen *to, sectors *so_far, const crv__group_pixels *at,
+                           const crv__list *list, const crv__slice_view *w,
+                           const crv__group_slice *s, vf rise, shape c, int32_t k,
+                           int32_t first, int32_t last)
 {
-    int32_t count = 0;
+    const vf steep = vf_set(-16) - s->b_over_a;
+    vf start = so_far->start, last_climb = so_far->last;
     for (int32_t i = first; i < last; i++) {
         const crv__sample *sample = &list->samples[i];
         const crv__sample_place *place = &list->places[i];
         const vf d = crv__group_slice_depth(at, place, 0, c.border);
-        const vf width =
-            c.rule == CRV_THICKNESS_WIDTH ? width_at(at, place, c.border) : vf_zero();
-        vf x, z;
-        crv__group_slice_point(w, s, sample, d, c.orthographic, &x, &z);
-        const vf climb = vf_fma(vf_set(-16), x, z);
-        so_far->start = vf_select(vf_lt(so_far->last, climb), x, so_far->start);
-        so_far->last = climb;
-        const vf front_x = x * vf_set(sample->front);
-        const vf height = vf_fma(s->b_over_a, x, z);
-        const vf raised_z = vf_fma(-s->b_over_a, front_x, height);
-        const vf squared = vf_fma(front_x, front_x, raised_z * raised_z);
-        const vm rises = vm_and(vf_lt(vf_zero(), vf_min(x, height)),
-                                vf_le(squared, flat * height * height));
-        r->x[count] = x;
-        r->z[count] = z;
-        r->thickness[count] = thickness_of(w, c, x - so_far->start, width);
-        r->index[count] = i;
-        count += vm_any(rises) ? 1 : 0;
+        vf x, height;
+        crv__group_slice_height(w, s, sample, d, c.orthographic, &x, &height);
+        const vf climb = vf_fma(steep, x, height); /* z - 16 x */
+        start = vf_select(vf_lt(last_climb, climb), x, start);
+        last_climb = climb;
+        to->x = x;
+        to->height = height;
+        to->run = x - start;
+        if (c.border && c.rule == CRV_THICKNESS_WIDTH)
+            to->width = width_at(at, place, true);
+        to->index = i;
+        to->slice = k;
+        to += vm_any(vf_lt(x * vf_set(sample->front) * rise, height)) ? 1 : 0;
     }
-    return count;
+    so_far->start = start;
+    so_far->last = last_climb;
+    return to;
 }
 
-/* The blocked share of a slice. */
-CRV__INLINE vf blocked_share(const crv__group_pixels *at, const crv__list *list,
-                             const crv__slice_view *w, const crv__group_slice *s, shape c,
-                             int32_t k, crv__lanes_vectors *vectors)
+/* The blocked share of a slice, and its bent normal's part. */
+CRV__INLINE vf share_of(const sectors *found, const crv__slice_view *w,
+                        const crv__group_slice *s, shape c, crv__lanes_vectors *vectors)
 {
-    const vf zero = vf_zero();
-    const int32_t first = k * at->di->steps, last = first + list->counts[k];
-    float offset = w->noise->sector_offset + 0.754878f * (float)k;
-    offset -= (float)(int32_t)offset;
-    crv__group_measure places = crv__group_measure_of(w, s, SECTORS);
-    places.whole = places.whole - vf_set(offset);
-    const vf flat = flatness(w, s, offset);
-    sectors found = {.mask = vi_set(0), .occlusion = zero, .start = zero, .last = zero};
-    for (int32_t g = 0; vectors && g < GROUPS; g++)
-        found.blocked[g] = zero;
-    for (int32_t i = first; i < last; i += MOST_RISEN) {
-        const int32_t end = i + MOST_RISEN < last ? i + MOST_RISEN : last;
-        risen r;
-        const int32_t count = collect(&r, &found, at, list, w, s, flat, c, i, end);
-        for (int32_t n = 0; n < count; n++) {
-            add_body(&found, w, s, &places, c, &list->samples[r.index[n]], r.x[n], r.z[n],
-                     r.thickness[n], vectors);
-        }
-    }
-    if (vectors && c.falloff == CRV_FALLOFF_NONE)
-        add_groups(&found, vf_set(1), found.mask);
+    const vf count = vf_of(vi_count_bits(found->mask));
     if (vectors)
         *vectors = crv__group_vectors(w->params, s->cos_tangent, s->sin_tangent, s->total,
-                                      found.blocked);
-    vf occlusion = found.occlusion;
+                                      found->blocked);
+    vf occlusion = found->occlusion;
     if (c.falloff == CRV_FALLOFF_NONE)
-        occlusion = vf_of(vi_count_bits(found.mask));
+        occlusion = count;
     else if (c.falloff == CRV_FALLOFF_LINEAR)
-        occlusion =
-            vf_fma(-occlusion, w->inverse_radius, vf_of(vi_count_bits(found.mask)));
+        occlusion = vf_fma(-occlusion, w->inverse_radius, count);
     return occlusion * vf_set(1.0f / SECTORS);
+}
+
+CRV__INLINE void blocked_shares(const crv__group_pixels *at, const crv__list *list,
+                                const crv__slice_view *w, const crv__group_slice *s,
+                                shape c, int32_t first, int32_t count, vf *shares,
+                                crv__lanes_vectors *vectors)
+{
+    const vf zero = vf_zero();
+    sectors found[CRV__SLICES_AT_ONCE];
+    scale scales[CRV__SLICES_AT_ONCE];
+    for (int32_t k = 0; k < count; k++) {
+        float offset = w->noise->sector_offset + 0.754878f * (float)(first + k);
+        offset -= (float)(int32_t)offset;
+        scales[k].places = crv__group_measure_of(w, &s[k], SECTORS);
+        scales[k].places.whole = scales[k].places.whole - vf_set(offset);
+        scales[k].rise = least_rise(w, &s[k], offset);
+        found[k].mask = vi_set(0);
+        found[k].occlusion = found[k].start = found[k].last = zero;
+        for (int32_t g = 0; vectors && g < GROUPS; g++)
+            found[k].blocked[g] = zero;
+    }
+    for (int32_t i = 0; i < at->di->steps; i += MOST_STEPS) {
+        risen all[MOST_RISEN], *end_of_all = all;
+        for (int32_t k = 0; k < count; k++) {
+            const int32_t begin = (first + k) * at->di->steps,
+                          end = begin + list->counts[first + k],
+                          to = begin + i + MOST_STEPS;
+            end_of_all = collect(end_of_all, &found[k], at, list, w, &s[k],
+                                 scales[k].rise, c, k, begin + i, to < end ? to : end);
+        }
+        for (const risen *r = all; r < end_of_all; r++)
+            add_body(&found[r->slice], at, list, w, &s[r->slice],
+                     &scales[r->slice].places, c, r, vectors);
+    }
+    for (int32_t k = 0; k < count; k++) {
+        if (vectors && c.falloff == CRV_FALLOFF_NONE)
+            add_groups(&found[k], vf_set(1), found[k].mask);
+        shares[k] = share_of(&found[k], w, &s[k], c, vectors ? &vectors[k] : NULL);
+    }
 }
 
 CRV__SLICES_SUMMED

@@ -99,6 +99,16 @@ CRV__INLINE vf blocked_share(const crv__group_pixels *at, const crv__list *list,
                                                           : (one - h.open) * h.weight;
 }
 
+CRV__INLINE void blocked_shares(const crv__group_pixels *at, const crv__list *list,
+                                const crv__slice_view *w, const crv__group_slice *s,
+                                shape c, int32_t first, int32_t count, vf *shares,
+                                crv__lanes_vectors *vectors)
+{
+    for (int32_t k = 0; k < count; k++)
+        shares[k] =
+            blocked_share(at, list, w, &s[k], c, first + k, vectors ? &vectors[k] : NULL);
+}
+
 CRV__SLICES_SUMMED
 
 CRV__SLICE_SHAPE(hard, .layers = 1, .falloff = CRV_FALLOFF_NONE)

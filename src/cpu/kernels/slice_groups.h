@@ -24,6 +24,7 @@ typedef struct crv__slice_view {
     vf scale, origin;              /* k = origin - scale * ds */
     vf radius, radius2, inverse_radius;
     vf a, inverse_a, g, minus_lift;
+    vf half_nx, half_ny; /* n/2a */
     crv__v3 V;
 } crv__slice_view;
 
@@ -66,6 +67,8 @@ CRV__INLINE crv__slice_view crv__slice_view_of(const crv__group_pixels *at,
     w.a = vf_max(facing, vf_set(0.02f));
     w.inverse_a = one / w.a;
     w.g = length * facing * w.inverse_a;
+    w.half_nx = vf_set(0.5f) * at->n.x * w.inverse_a;
+    w.half_ny = vf_set(0.5f) * at->n.y * w.inverse_a;
     w.minus_lift = vf_zero() - crv__lanes_lift(p, w.a);
     return w;
 }
@@ -147,6 +150,23 @@ CRV__INLINE void crv__group_slice_point(const crv__slice_view *w,
     *z = orthographic ? vf_fma(k, w->g, q) : vf_fma(k, w->g - q, q);
 }
 
+/* Its x, and its height over the tangent along V, z + x b/a, for which T is not needed:
+ *
+ *     height = Q + k (g - Q),   Q = n.o/a - e/d
+ */
+CRV__INLINE void crv__group_slice_height(const crv__slice_view *w,
+                                         const crv__group_slice *s,
+                                         const crv__sample *sample, vf depth,
+                                         int orthographic, vf *x, vf *height)
+{
+    const vf x2 = vf_set(sample->x2), y2 = vf_set(sample->y2);
+    const vf k = vf_fma(-depth, w->scale, w->origin);
+    const vf m = vf_fma(x2, s->half_Tx, y2 * s->half_Ty);
+    const vf Q = vf_fma(x2, w->half_nx, vf_fma(y2, w->half_ny, w->minus_lift));
+    *x = orthographic ? m : vf_fma(-k, m, m);
+    *height = orthographic ? vf_fma(k, w->g, Q) : vf_fma(k, w->g - Q, Q);
+}
+
 /* Whether all lanes have their sample on the picture. */
 CRV__INLINE bool crv__group_slice_is_inside(const crv__group_pixels *at,
                                             const crv__sample_place *place)
@@ -179,26 +199,39 @@ CRV__INLINE vf crv__group_slice_depth(const crv__group_pixels *at,
     return vf_select(off, vf_min(crv__lanes_beyond(at->frame, u, v, off), background), d);
 }
 
+/* Slices that are set up at once: one after the other they would wait for their roots. */
+enum { CRV__SLICES_AT_ONCE = 4 };
+
 /* sum_of_slices(): accessibility from a group's slices, by the template's `shape` and
- * blocked_share(); and the bent normal, if bent is not NULL. CRV__SLICE_SHAPE: for one
+ * blocked_shares(); and the bent normal, if bent is not NULL. CRV__SLICE_SHAPE: for one
  * shape, compiled by itself; CRV__SLICE_BENT_SHAPE: with bent normals. */
 #define CRV__SLICES_SUMMED                                                               \
     CRV__INLINE vf sum_of_slices(const crv__group_pixels *at, const crv__list *list,     \
                                  shape c, crv__v3 *bent)                                 \
     {                                                                                    \
         const crv__slice_view w = crv__slice_view_of(at, c.orthographic);                \
+        const int32_t slices = at->di->slices;                                           \
         const vf one = vf_set(1);                                                        \
         vf blocked = vf_zero(), total = vf_zero();                                       \
         crv__lanes_sums sums = crv__lanes_no_sums();                                     \
-        for (int32_t k = 0; k < at->di->slices; k++) {                                   \
-            const crv__group_slice s = crv__group_slice_at(at, &w, k);                   \
-            crv__lanes_vectors vectors;                                                  \
-            const vf share =                                                             \
-                blocked_share(at, list, &w, &s, c, k, bent ? &vectors : NULL);           \
-            blocked = vf_fma(s.weight, share, blocked);                                  \
-            total = total + s.weight;                                                    \
-            if (bent)                                                                    \
-                crv__lanes_add_vectors(&sums, s.T, w.V, s.density, &vectors);            \
+        for (int32_t first = 0; first < slices; first += CRV__SLICES_AT_ONCE) {          \
+            const int32_t rest = slices - first, count = rest < CRV__SLICES_AT_ONCE      \
+                                                             ? rest                      \
+                                                             : CRV__SLICES_AT_ONCE;      \
+            crv__group_slice s[CRV__SLICES_AT_ONCE];                                     \
+            crv__lanes_vectors vectors[CRV__SLICES_AT_ONCE];                             \
+            vf shares[CRV__SLICES_AT_ONCE];                                              \
+            for (int32_t k = 0; k < count; k++)                                          \
+                s[k] = crv__group_slice_at(at, &w, first + k);                           \
+            blocked_shares(at, list, &w, s, c, first, count, shares,                     \
+                           bent ? vectors : NULL);                                       \
+            for (int32_t k = 0; k < count; k++) {                                        \
+                blocked = vf_fma(s[k].weight, shares[k], blocked);                       \
+                total = total + s[k].weight;                                             \
+                if (bent)                                                                \
+                    crv__lanes_add_vectors(&sums, s[k].T, w.V, s[k].density,             \
+                                           &vectors[k]);                                 \
+            }                                                                            \
         }                                                                                \
         const vf A = vf_select(vf_lt(vf_zero(), total), one - blocked / total, one);     \
         if (bent)                                                                        \

@@ -62,6 +62,16 @@ CRV__INLINE vi vi_select(vm mask, vi a, vi b)
     return (vi)vf_select(mask, (vf)a, (vf)b);
 }
 
+CRV__INLINE vi vi_min(vi a, vi b)
+{
+    return (vi)_mm256_min_epi32((__m256i)a, (__m256i)b);
+}
+
+CRV__INLINE vi vi_max(vi a, vi b)
+{
+    return (vi)_mm256_max_epi32((__m256i)a, (__m256i)b);
+}
+
 CRV__INLINE vf vf_min(vf a, vf b)
 {
     return _mm256_min_ps(a, b);

@@ -97,6 +97,16 @@ CRV__INLINE vi vi_select(vm mask, vi a, vi b)
     return (vi)_mm512_mask_blend_epi32(mask, (__m512i)b, (__m512i)a);
 }
 
+CRV__INLINE vi vi_min(vi a, vi b)
+{
+    return (vi)_mm512_min_epi32((__m512i)a, (__m512i)b);
+}
+
+CRV__INLINE vi vi_max(vi a, vi b)
+{
+    return (vi)_mm512_max_epi32((__m512i)a, (__m512i)b);
+}
+
 CRV__INLINE vf vf_min(vf a, vf b)
 {
     return _mm512_min_ps(a, b);
@@ -227,6 +237,18 @@ CRV__INLINE vi vi_count_bits(vi a)
 CRV__INLINE vi vi_from_bit(vi n)
 {
     return (vi)_mm512_sllv_epi32(_mm512_set1_epi32(-1), (__m512i)n);
+}
+
+/* From a table whose first number stands for 32. */
+CRV__INLINE vf vi_rcp(vi n)
+{
+    static const float TABLE[32] = {
+        1.0f / 32, 1.0f,      1.0f / 2,  1.0f / 3,  1.0f / 4,  1.0f / 5,  1.0f / 6,
+        1.0f / 7,  1.0f / 8,  1.0f / 9,  1.0f / 10, 1.0f / 11, 1.0f / 12, 1.0f / 13,
+        1.0f / 14, 1.0f / 15, 1.0f / 16, 1.0f / 17, 1.0f / 18, 1.0f / 19, 1.0f / 20,
+        1.0f / 21, 1.0f / 22, 1.0f / 23, 1.0f / 24, 1.0f / 25, 1.0f / 26, 1.0f / 27,
+        1.0f / 28, 1.0f / 29, 1.0f / 30, 1.0f / 31};
+    return _mm512_permutex2var_ps(vf_load(TABLE), (__m512i)n, vf_load(TABLE + 16));
 }
 
 CRV__INLINE int32_t vm_count(vm mask)

@@ -56,6 +56,11 @@ CRV__INLINE int32_t vi_largest(vi a)
     return largest;
 }
 
+CRV__INLINE vf vi_rcp(vi n)
+{
+    return vf_rcp_rough(vf_of(vi_max(n, vi_set(1))));
+}
+
 CRV__INLINE vf vf_max_within(vf a, vf b, vf q, vf limit)
 {
     return vf_max(vf_select(vf_lt(q, limit), b, vf_set(0)), a);

@@ -62,6 +62,16 @@ CRV__INLINE vi vi_select(vm mask, vi a, vi b)
     return (a & mask) | (b & ~mask);
 }
 
+CRV__INLINE vi vi_min(vi a, vi b)
+{
+    return (vi)vminq_s32((int32x4_t)a, (int32x4_t)b);
+}
+
+CRV__INLINE vi vi_max(vi a, vi b)
+{
+    return (vi)vmaxq_s32((int32x4_t)a, (int32x4_t)b);
+}
+
 CRV__INLINE vf vf_min(vf a, vf b)
 {
     return vf_select(vf_lt(a, b), a, b);

@@ -15,11 +15,13 @@
  *   vm_and vm_or vm_not vm_any
  *   vf_select vi_select      first where the mask is set, else second
  *   vf_min vf_max            the second argument where either is a NaN
+ *   vi_min vi_max
  *   vf_sqrt vf_floor vf_fma  exact; fma rounds twice where the set has none
  *   vf_rsqrt                 1/sqrt, relative error < 1e-6; not for denormal numbers
  *   vf_rsqrt_rough           relative error < 4e-4; at 0 infinite or a NaN
  *   vf_rsqrt_fair            relative error < 7e-5; not for denormal numbers
  *   vf_rcp_rough             1/a, relative error < 4e-4
+ *   vi_rcp                   1/n likewise, n from 1 to 32; of others finite
  *   vi_trunc vi_round vf_of  conversions; the value must fit
  *   vi_floor                 rounded down; negative or INT32_MAX where it does not fit or
  *                            is a NaN

@@ -63,6 +63,16 @@ CRV__INLINE vi vi_select(vm mask, vi a, vi b)
 }
 
 /* pmin and pmax give their first argument if either is a NaN. */
+CRV__INLINE vi vi_min(vi a, vi b)
+{
+    return (vi)wasm_i32x4_min((v128_t)a, (v128_t)b);
+}
+
+CRV__INLINE vi vi_max(vi a, vi b)
+{
+    return (vi)wasm_i32x4_max((v128_t)a, (v128_t)b);
+}
+
 CRV__INLINE vf vf_min(vf a, vf b)
 {
     return (vf)wasm_f32x4_pmin((v128_t)b, (v128_t)a);
