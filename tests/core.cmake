@@ -46,4 +46,5 @@ crevice_test(test_noise SOURCES test_noise.c LIBS crevice_internal)
 crevice_test(test_thickness SOURCES test_thickness.c fixture.c LIBS crevice_internal)
 crevice_test(test_deinterleaved SOURCES test_deinterleaved.c deinterleaved_reference.c deinterleaved_gtao.c deinterleaved_bitmask.c simd_case.c simd_run.c fixture.c
     LIBS crevice_internal)
+crevice_test(test_filter_planes SOURCES test_filter_planes.c LIBS crevice_internal)
 crevice_test(test_plan SOURCES test_plan.c fixture.c LIBS crevice_internal)

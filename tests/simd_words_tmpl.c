@@ -159,6 +159,12 @@ static void check_comparisons(simd_random *r)
         expect_float("vf_clamp01", i, least(most(x, 0), 1),
                      taken(vf_clamp01(va)).lane[i]);
         expect_float("vf_abs", i, fabsf(x), taken(vf_abs(va)).lane[i]);
+        if (!isnan(x) && !isnan(y)) {
+            expect_float("vf_least_abs", i, least(fabsf(x), fabsf(y)),
+                         taken(vf_least_abs(va, vb)).lane[i]);
+            expect_float("vf_most_abs", i, most(fabsf(x), fabsf(y)),
+                         taken(vf_most_abs(va, vb)).lane[i]);
+        }
     }
     int any = 0, count = 0;
     int32_t largest = INT32_MIN;

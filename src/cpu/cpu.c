@@ -106,10 +106,42 @@ static void estimate_pixels(const tiles *t, int32_t x0, int32_t x1, int32_t y,
     apply_contrast(frame->params, to->accessibility, x1 - x0);
 }
 
+/* What is filtered of bent normals is how they deviate from the surface's normals: the
+ * mean of the directions themselves would flatten curved surfaces. Zero stands for the
+ * normal. */
+static void take_deviations(const tiles *t, int32_t x0, int32_t x1, int32_t y,
+                            const picture_row *row)
+{
+    const crv__plane *normal = t->work->frame->normal;
+    const float *n[3];
+    if (!row->bent[0] || !t->work->setup->filter)
+        return;
+    for (int k = 0; k < 3; k++)
+        n[k] = crv__plane_at(&normal[k], x0, y);
+    for (int32_t x = 0; x < x1 - x0; x++) {
+        const float any =
+            fabsf(row->bent[0][x]) + fabsf(row->bent[1][x]) + fabsf(row->bent[2][x]);
+        for (int k = 0; k < 3; k++)
+            row->bent[k][x] = any > 0 ? row->bent[k][x] - n[k][x] : 0;
+    }
+}
+
+/* And bent normals again, once they are filtered. */
+static void restore_bent(const tiles *t, int32_t x0, int32_t x1, int32_t y,
+                         const picture_row *row)
+{
+    for (int k = 0; k < 3 && row->bent[k]; k++) {
+        const float *n = crv__plane_at(&t->work->frame->normal[k], x0, y);
+        for (int32_t x = 0; x < x1 - x0; x++)
+            row->bent[k][x] += n[x];
+    }
+}
+
 static void estimate_row(const tiles *t, int32_t x0, int32_t x1, int32_t y)
 {
     const picture_row to = row_of(t->out, x0, y);
     estimate_pixels(t, x0, x1, y, &to);
+    take_deviations(t, x0, x1, y, &to);
 }
 
 static float filtered(float accessibility, float own, bool background)
@@ -132,6 +164,8 @@ static void filter_row(const tiles *t, int32_t x0, int32_t x1, int32_t y)
         if (to.bent[0])
             put_bent(&to, x - x0, e.bent);
     }
+    if (t->pass + 1 == t->filter->passes)
+        restore_bent(t, x0, x1, y, &to);
 }
 
 /* The column and row of a tile by its number. They are visited in strips from the top to
@@ -260,6 +294,7 @@ static void run_group_tile(void *data, uint32_t index)
             apply_contrast(t->work->frame->params, to_row.accessibility, x1 - x0);
             if (beyond)
                 mend_row(t, x0, x1, y, &to_row);
+            take_deviations(t, x0, x1, y, &to_row);
         }
     }
 }
@@ -353,68 +388,6 @@ static bool filter_pass(const crv__work *work, int32_t pass, const crv__picture 
     return run_tiles(&t);
 }
 
-/* What is filtered of bent normals is how they deviate from the surface's normals: the
- * mean of the directions themselves would flatten curved surfaces. Kernels keep what they
- * filter in [0, 1]; they get a quarter of the deviation and 1/2. */
-typedef struct deviation_job {
-    const crv__frame *frame;
-    const crv__plane *bent;
-    float scale, offset;
-} deviation_job;
-
-/* A row of the bent normals, and the normals there. Returns how many. */
-static int32_t rows_of(const deviation_job *job, uint32_t index, float *bent[3],
-                       const float *normal[3])
-{
-    const crv__plane *first = job->bent;
-    const int32_t y = first->y0 + (int32_t)index;
-    for (int k = 0; k < 3; k++) {
-        bent[k] = crv__plane_at(&job->bent[k], first->x0, y);
-        normal[k] = crv__plane_at(&job->frame->normal[k], first->x0, y);
-    }
-    return first->width;
-}
-
-/* Zero stands for the normal. */
-static void deviate_row(void *data, uint32_t index)
-{
-    const deviation_job *job = data;
-    float *bent[3];
-    const float *normal[3];
-    const int32_t width = rows_of(job, index, bent, normal);
-    for (int32_t x = 0; x < width; x++) {
-        const float any = fabsf(bent[0][x]) + fabsf(bent[1][x]) + fabsf(bent[2][x]);
-        for (int k = 0; k < 3; k++) {
-            const float deviation = any > 0 ? bent[k][x] - normal[k][x] : 0;
-            bent[k][x] = job->scale * deviation + job->offset;
-        }
-    }
-}
-
-static void restore_row(void *data, uint32_t index)
-{
-    const deviation_job *job = data;
-    float *bent[3];
-    const float *normal[3];
-    const float scale = 1 / job->scale;
-    const int32_t width = rows_of(job, index, bent, normal);
-    for (int k = 0; k < 3; k++)
-        for (int32_t x = 0; x < width; x++)
-            bent[k][x] = (bent[k][x] - job->offset) * scale + normal[k][x];
-}
-
-/* deviate_row() before the filter, restore_row() after it, if bent normals are filtered.
- */
-static void run_deviations(const crv__work *work, const crv__picture *of,
-                           void (*row)(void *data, uint32_t index))
-{
-    const bool by_kernel = state_of(work)->filter;
-    deviation_job job = {work->frame, of->bent, by_kernel ? 0.25f : 1,
-                         by_kernel ? 0.5f : 0};
-    if (work->with_bent && work->setup->filter)
-        crv__run_rows(work->setup->context, of->bent[0].height, row, &job);
-}
-
 static void run_filter_tile(void *data, uint32_t index)
 {
     const tiles *t = data;
@@ -426,11 +399,11 @@ static void run_filter_tile(void *data, uint32_t index)
     const int32_t right = out->x0 + out->width, bottom = out->y0 + out->height;
     const int32_t x1 = x0 + CRV__FILTER_TILE_WIDTH, y1 = y0 + CRV__FILTER_TILE_HEIGHT;
     const crv__tile tile = {x0, x1 < right ? x1 : right, y0, y1 < bottom ? y1 : bottom};
-    t->filter_kernel(t->work->frame, &t->input->accessibility, out, tile);
-    if (!t->out->bent[0].data)
-        return;
-    for (int k = 0; k < 3; k++)
-        t->filter_kernel(t->work->frame, &t->input->bent[k], &t->out->bent[k], tile);
+    t->filter_kernel(t->work->frame, t->input, t->out, tile);
+    for (int32_t y = tile.y0; y < tile.y1; y++) {
+        const picture_row row = row_of(t->out, x0, y);
+        restore_bent(t, x0, tile.x1, y, &row);
+    }
 }
 
 /* What the host gives to be filtered alone has nothing beyond the guard band: kernels are
@@ -553,7 +526,6 @@ static crv_status run(const crv__work *given, const crv__picture given_pictures[
     bool goes_on = work.filter_only || estimate(&work, &pictures[0]);
     if (!goes_on)
         return CRV_ERROR_STOPPED;
-    run_deviations(&work, &pictures[0], deviate_row);
     if (kernel)
         goes_on = filter_with(&work, kernel, pictures);
     for (int32_t pass = 0; pass < passes && goes_on; pass++)
@@ -562,7 +534,6 @@ static crv_status run(const crv__work *given, const crv__picture given_pictures[
     if (!goes_on)
         return CRV_ERROR_STOPPED;
     *result = pictures[kernel ? 1 : passes % 2];
-    run_deviations(&work, result, restore_row);
     return CRV_OK;
 }
 

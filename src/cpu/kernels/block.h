@@ -28,7 +28,7 @@ typedef struct crv__centre {
 
 /* A tap, as it was read. */
 typedef struct crv__texel {
-    vf depth, value;
+    vf depth, value[CRV__PLANES];
     crv__v3 normal;
 } crv__texel;
 
@@ -48,32 +48,41 @@ CRV__INLINE vf crv__block_slope(vf before, vf d, vf after)
     return vf_where(vf_lt(vf_abs(slope), vf_set(CRV_STEEPEST_SLOPE)), slope);
 }
 
-/* What a block reads, from its first pixel on. Depth and normals have rows of one length:
- * they are planes of one G-buffer. */
+/* What a block reads, from its first pixel on: depth, normals and the planes to filter.
+ * Depth and normals have rows of one length: they are planes of one G-buffer. */
 typedef struct crv__block {
-    const float *depth, *normal[3], *value;
+    const float *depth, *normal[3], *value[CRV__PLANES];
     ptrdiff_t pitch, value_pitch;
+    int32_t planes; /* 1 or CRV__PLANES */
 } crv__block;
 
-CRV__INLINE crv__block crv__block_at(const crv__frame *f, const crv__plane *input,
-                                     int32_t x, int32_t y)
+/* Where a block's results go. */
+typedef struct crv__block_out {
+    float *plane[CRV__PLANES];
+    ptrdiff_t pitch;
+} crv__block_out;
+
+CRV__INLINE crv__block crv__block_at(const crv__frame *f, const crv__picture *input,
+                                     int32_t planes, int32_t x, int32_t y)
 {
-    return (crv__block){crv__plane_at(&f->depth[0], x, y),
-                        {crv__plane_at(&f->normal[0], x, y),
-                         crv__plane_at(&f->normal[1], x, y),
-                         crv__plane_at(&f->normal[2], x, y)},
-                        crv__plane_at(input, x, y),
-                        f->depth[0].pitch,
-                        input->pitch};
+    crv__block b = {.depth = crv__plane_at(&f->depth[0], x, y),
+                    .pitch = f->depth[0].pitch,
+                    .value_pitch = input->accessibility.pitch,
+                    .planes = planes};
+    for (int32_t i = 0; i < 3; i++)
+        b.normal[i] = crv__plane_at(&f->normal[i], x, y);
+    for (int32_t i = 0; i < planes; i++)
+        b.value[i] = crv__plane_at(crv__plane_of(input, i), x, y);
+    return b;
 }
 
-/* To the next vector of the same rows. */
-CRV__INLINE void crv__block_advance(crv__block *b)
+CRV__INLINE crv__block_out crv__block_out_at(const crv__picture *out, int32_t planes,
+                                             int32_t x, int32_t y)
 {
-    b->depth += CRV__LANES;
-    b->value += CRV__LANES;
-    for (int32_t i = 0; i < 3; i++)
-        b->normal[i] += CRV__LANES;
+    crv__block_out o = {.pitch = out->accessibility.pitch};
+    for (int32_t i = 0; i < planes; i++)
+        o.plane[i] = crv__plane_at(crv__plane_of(out, i), x, y);
+    return o;
 }
 
 /* The centres of a row, with the slopes along x, y or both. */
@@ -103,21 +112,24 @@ CRV__INLINE const float *crv__unhoisted(const float *table)
     return table;
 }
 
-/* The texels `offset` floats from the block's. */
+/* The texels `at` floats from the block's, `value_at` in the planes to filter. */
 CRV__INLINE crv__texel crv__block_texel(const crv__block *b, ptrdiff_t at,
                                         ptrdiff_t value_at)
 {
-    return (crv__texel){vf_load(b->depth + at),
-                        vf_load(b->value + value_at),
-                        {vf_load(b->normal[0] + at), vf_load(b->normal[1] + at),
-                         vf_load(b->normal[2] + at)}};
+    crv__texel texel = {.depth = vf_load(b->depth + at),
+                        .normal = {vf_load(b->normal[0] + at), vf_load(b->normal[1] + at),
+                                   vf_load(b->normal[2] + at)}};
+    for (int32_t i = 0; i < b->planes; i++)
+        texel.value[i] = vf_load(b->value[i] + value_at);
+    return texel;
 }
 
 /* Prefetches what the same block `rows` rows further down will read. */
 CRV__INLINE void crv__block_prefetch(const crv__block *b, int32_t rows)
 {
     __builtin_prefetch(b->depth + rows * b->pitch);
-    __builtin_prefetch(b->value + rows * b->value_pitch);
+    for (int32_t i = 0; i < b->planes; i++)
+        __builtin_prefetch(b->value[i] + rows * b->value_pitch);
     for (int32_t i = 0; i < 3; i++)
         __builtin_prefetch(b->normal[i] + rows * b->pitch);
 }
@@ -126,7 +138,8 @@ CRV__INLINE void crv__block_prefetch(const crv__block *b, int32_t rows)
 CRV__INLINE void crv__block_move(crv__block *b, int32_t rows, int32_t columns)
 {
     b->depth += rows * b->pitch + columns;
-    b->value += rows * b->value_pitch + columns;
+    for (int32_t i = 0; i < b->planes; i++)
+        b->value[i] += rows * b->value_pitch + columns;
     for (int32_t i = 0; i < 3; i++)
         b->normal[i] += rows * b->pitch + columns;
 }
@@ -150,11 +163,13 @@ CRV__INLINE vf crv__block_likeness(const crv__limits *limits, const crv__centre 
                          vf_fma(tap->normal.z, c->turned.z, limits->likeness_base)));
 }
 
-/* Background is 1. */
-CRV__INLINE void crv__block_store(float *out, vf depth, vf result)
+/* The means of values in a row of a block. */
+CRV__INLINE void crv__block_store(const crv__block_out *out, int32_t row, int32_t planes,
+                                  vf depth, const vf values[], vf weights)
 {
-    const vm surface = vf_lt(depth, vf_set(INFINITY));
-    vf_store(out, vf_select(surface, vf_clamp01(result), vf_set(1)));
+    for (int32_t i = 0; i < planes; i++)
+        vf_store(out->plane[i] + row * out->pitch,
+                 crv__filter_result(depth, values[i] / weights, i));
 }
 
 CRV__INLINE int crv__block_is_empty(const crv__block *b, int32_t rows)
@@ -170,41 +185,48 @@ CRV__INLINE int crv__block_is_empty(const crv__block *b, int32_t rows)
  */
 typedef struct crv__filter_ways {
     int32_t rows, radius_x, radius_y;
-    void (*run)(const crv__frame *f, const crv__block *first, int32_t count, float *out,
-                ptrdiff_t out_pitch);
-    void (*pixels)(const crv__frame *f, const crv__plane *input, int32_t x, int32_t y,
-                   int32_t count, float *out);
+    void (*run)(const crv__frame *f, const crv__block *first, int32_t count,
+                const crv__block_out *out);
+    void (*pixels)(const crv__frame *f, const crv__picture *input, int32_t plane,
+                   int32_t x, int32_t y, int32_t count, float *out);
 } crv__filter_ways;
 
-/* Defines the run `name` of block(f, block, limits, out, out_pitch, with_normals,
- * with_slopes), compiled for what is mostly asked for and for all else. */
+/* Defines the run `name` of block(block, limits, out, with_normals, with_slopes),
+ * compiled for what is mostly asked for and for all else. */
 #define CRV__BLOCK_RUN(name, block, rows)                                                \
     CRV__INLINE void name##_blocks(const crv__frame *f, const crv__block *first,         \
-                                   int32_t count, float *out, ptrdiff_t out_pitch,       \
-                                   int with_normals, int with_slopes)                    \
+                                   int32_t count, const crv__block_out *to,              \
+                                   int32_t planes, int with_normals, int with_slopes)    \
     {                                                                                    \
         const crv__limits limits = crv__limits_of(f->params);                            \
         crv__block b = *first;                                                           \
-        for (int32_t i = 0; i < count; i++, out += CRV__LANES) {                         \
+        crv__block_out out = *to;                                                        \
+        b.planes = planes;                                                               \
+        for (int32_t i = 0; i < count; i++) {                                            \
             if (!crv__block_is_empty(&b, rows)) {                                        \
-                block(&b, &limits, out, out_pitch, with_normals, with_slopes);           \
+                block(&b, &limits, &out, with_normals, with_slopes);                     \
             } else {                                                                     \
-                for (int32_t k = 0; k < (rows); k++)                                     \
-                    vf_store(out + k * out_pitch, vf_set(1));                            \
+                for (int32_t k = 0; k < (rows)*planes; k++)                              \
+                    vf_store(out.plane[k / (rows)] + k % (rows)*out.pitch,               \
+                             vf_set(k < (rows) ? 1 : 0));                                \
             }                                                                            \
-            crv__block_advance(&b);                                                      \
+            crv__block_move(&b, 0, CRV__LANES);                                          \
+            for (int32_t k = 0; k < planes; k++)                                         \
+                out.plane[k] += CRV__LANES;                                              \
         }                                                                                \
     }                                                                                    \
     CRV__NOINLINE void name(const crv__frame *f, const crv__block *first, int32_t count, \
-                            float *out, ptrdiff_t out_pitch)                             \
+                            const crv__block_out *out)                                   \
     {                                                                                    \
         const int slopes = f->params->filter_slope;                                      \
-        if (f->params->filter_normal > 0 && slopes)                                      \
-            name##_blocks(f, first, count, out, out_pitch, 1, 1);                        \
+        if (first->planes > 1)                                                           \
+            name##_blocks(f, first, count, out, CRV__PLANES, 1, slopes);                 \
+        else if (f->params->filter_normal > 0 && slopes)                                 \
+            name##_blocks(f, first, count, out, 1, 1, 1);                                \
         else if (f->params->filter_normal > 0)                                           \
-            name##_blocks(f, first, count, out, out_pitch, 1, 0);                        \
+            name##_blocks(f, first, count, out, 1, 1, 0);                                \
         else                                                                             \
-            name##_blocks(f, first, count, out, out_pitch, 0, slopes);                   \
+            name##_blocks(f, first, count, out, 1, 0, slopes);                           \
     }
 
 enum {
@@ -216,7 +238,7 @@ enum {
 
 /* A block of its own with background around the input. */
 typedef struct crv__edge {
-    _Alignas(64) float plane[5][CRV__EDGE_ROWS][CRV__EDGE_PITCH];
+    _Alignas(64) float plane[4 + CRV__PLANES][CRV__EDGE_ROWS][CRV__EDGE_PITCH];
 } crv__edge;
 
 /* Copies what a row of a plane holds from column x on; `fill` beside it. */
@@ -252,37 +274,47 @@ CRV__INLINE int crv__edge_is_outer(const crv__plane *depth, const crv__plane *in
 }
 
 /* A block at the border, of `rows` rows of `count` pixels. */
-CRV__NOINLINE void crv__edge_run(const crv__frame *f, const crv__plane *input,
-                                 const crv__plane *out, int32_t x, int32_t y,
-                                 int32_t rows, int32_t count,
+CRV__NOINLINE void crv__edge_run(const crv__frame *f, const crv__picture *input,
+                                 const crv__picture *out, int32_t planes, int32_t x,
+                                 int32_t y, int32_t rows, int32_t count,
                                  const crv__filter_ways *ways)
 {
     crv__edge edge;
-    float result[CRV__BLOCK_ROWS * CRV__LANES];
-    const crv__plane *planes[5] = {&f->depth[0], input, &f->normal[0], &f->normal[1],
-                                   &f->normal[2]};
-    for (int32_t i = 0; i < 5; i++) {
+    float result[CRV__PLANES][CRV__BLOCK_ROWS * CRV__LANES];
+    crv__block b = {
+        .pitch = CRV__EDGE_PITCH, .value_pitch = CRV__EDGE_PITCH, .planes = planes};
+    crv__block_out to = {.pitch = CRV__LANES};
+    const float *starts[4 + CRV__PLANES];
+    for (int32_t i = 0; i < 4 + planes; i++) {
+        const crv__plane *from = i == 0  ? &f->depth[0]
+                                 : i < 4 ? &f->normal[i - 1]
+                                         : crv__plane_of(input, i - 4);
         for (int32_t k = 0; k < ways->rows + 2 * ways->radius_y; k++)
-            crv__edge_copy(planes[i], x - CRV__EDGE_LEFT, y - ways->radius_y + k,
+            crv__edge_copy(from, x - CRV__EDGE_LEFT, y - ways->radius_y + k,
                            i == 0 ? INFINITY : 0, edge.plane[i][k]);
+        starts[i] = &edge.plane[i][ways->radius_y][CRV__EDGE_LEFT];
     }
-    const crv__block b = {&edge.plane[0][ways->radius_y][CRV__EDGE_LEFT],
-                          {&edge.plane[2][ways->radius_y][CRV__EDGE_LEFT],
-                           &edge.plane[3][ways->radius_y][CRV__EDGE_LEFT],
-                           &edge.plane[4][ways->radius_y][CRV__EDGE_LEFT]},
-                          &edge.plane[1][ways->radius_y][CRV__EDGE_LEFT],
-                          CRV__EDGE_PITCH,
-                          CRV__EDGE_PITCH};
-    ways->run(f, &b, 1, result, CRV__LANES);
-    for (int32_t i = 0; i < rows; i++)
-        vf_store_n(crv__plane_at(out, x, y + i), vf_load(result + i * CRV__LANES), count);
+    b.depth = starts[0];
+    for (int32_t i = 0; i < 3; i++)
+        b.normal[i] = starts[1 + i];
+    for (int32_t i = 0; i < planes; i++) {
+        b.value[i] = starts[4 + i];
+        to.plane[i] = result[i];
+    }
+    ways->run(f, &b, 1, &to);
+    for (int32_t i = 0; i < rows * planes; i++) {
+        const int32_t row = i % rows, plane = i / rows;
+        vf_store_n(crv__plane_at(crv__plane_of(out, plane), x, y + row),
+                   vf_load(result[plane] + row * CRV__LANES), count);
+    }
 }
 
-/* One pass over a rectangle. */
-CRV__INLINE void crv__filter_pass(const crv__frame *f, const crv__plane *input,
-                                  const crv__plane *out, crv__tile r,
+/* One pass over a rectangle, of the first `planes` planes. */
+CRV__INLINE void crv__filter_pass(const crv__frame *f, const crv__picture *from,
+                                  const crv__picture *to, int32_t planes, crv__tile r,
                                   const crv__filter_ways *ways)
 {
+    const crv__plane *input = &from->accessibility;
     const int careful = f->params->filter_normal > CRV__SHARPEST;
     const int32_t right = input->x0 + input->width - ways->radius_x;
     const int32_t end = right < r.x1 ? right : r.x1;
@@ -296,8 +328,9 @@ CRV__INLINE void crv__filter_pass(const crv__frame *f, const crv__plane *input,
         const int whole = count && rows == ways->rows && y - ways->radius_y >= input->y0
                           && y + ways->radius_y + rows <= input->y0 + input->height;
         if (whole) {
-            const crv__block b = crv__block_at(f, input, first, y);
-            ways->run(f, &b, count, crv__plane_at(out, first, y), out->pitch);
+            const crv__block b = crv__block_at(f, from, planes, first, y);
+            const crv__block_out out = crv__block_out_at(to, planes, first, y);
+            ways->run(f, &b, count, &out);
         }
         for (int32_t x = r.x0; x < r.x1; x += CRV__LANES) {
             if (whole && x == first)
@@ -306,13 +339,21 @@ CRV__INLINE void crv__filter_pass(const crv__frame *f, const crv__plane *input,
                 break;
             const int32_t n = r.x1 - x < CRV__LANES ? r.x1 - x : CRV__LANES;
             if (!careful && crv__edge_is_outer(&f->depth[0], input, x, y, ways)) {
-                crv__edge_run(f, input, out, x, y, rows, n, ways);
+                crv__edge_run(f, from, to, planes, x, y, rows, n, ways);
                 continue;
             }
-            for (int32_t i = 0; i < rows; i++)
-                ways->pixels(f, input, x, y + i, n, crv__plane_at(out, x, y + i));
+            for (int32_t i = 0; i < rows * planes; i++) {
+                const int32_t row = y + i % rows, plane = i / rows;
+                ways->pixels(f, from, plane, x, row, n,
+                             crv__plane_at(crv__plane_of(to, plane), x, row));
+            }
         }
     }
+}
+
+CRV__INLINE int32_t crv__planes_of(const crv__picture *picture)
+{
+    return picture->bent[0].data ? CRV__PLANES : 1;
 }
 
 #endif

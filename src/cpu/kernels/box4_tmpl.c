@@ -5,7 +5,7 @@
 enum { FIRST = -2, LAST = 1 };
 
 typedef struct sums {
-    vf values, count;
+    vf values[CRV__PLANES], count;
 } sums;
 
 CRV__INLINE vf filter(const crv__window *w)
@@ -23,10 +23,10 @@ CRV__INLINE vf filter(const crv__window *w)
     return sum / count;
 }
 
-CRV__NOINLINE void slowly(const crv__frame *f, const crv__plane *input, int32_t x,
-                          int32_t y, int32_t count, float *out)
+CRV__NOINLINE void slowly(const crv__frame *f, const crv__picture *input, int32_t plane,
+                          int32_t x, int32_t y, int32_t count, float *out)
 {
-    crv__filter_pixels(f, input, x, y, count, out, filter);
+    crv__filter_pixels(f, input, plane, x, y, count, out, filter);
 }
 
 /* Adds the tap of a column to all whose windows hold its row, counted from the block's
@@ -46,7 +46,8 @@ CRV__INLINE void add_tap(sums s[CRV__BLOCK_ROWS], const crv__limits *limits,
             if (with_normals)                                                            \
                 in = vm_and(in,                                                          \
                             vf_lt(vf_zero(), crv__block_likeness(limits, &c[i], &tap))); \
-            s[i].values = s[i].values + vf_where(in, tap.value);                         \
+            for (int32_t p = 0; p < at->planes; p++)                                     \
+                s[i].values[p] = s[i].values[p] + vf_where(in, tap.value[p]);            \
             s[i].count = s[i].count + vf_where(in, vf_set(1));                           \
         }                                                                                \
     } while (0)
@@ -71,14 +72,16 @@ CRV__INLINE void add_column(sums s[CRV__BLOCK_ROWS], const crv__limits *limits,
     crv__block_move(at, FIRST - LAST - CRV__BLOCK_ROWS, 1);
 }
 
-CRV__INLINE void block(const crv__block *b, const crv__limits *limits, float *out,
-                       ptrdiff_t out_pitch, int with_normals, int with_slopes)
+CRV__INLINE void block(const crv__block *b, const crv__limits *limits,
+                       const crv__block_out *out, int with_normals, int with_slopes)
 {
     crv__centre c[CRV__BLOCK_ROWS];
     sums s[CRV__BLOCK_ROWS];
     for (int32_t i = 0; i < CRV__BLOCK_ROWS; i++) {
         c[i] = crv__block_centre(b, limits, i, with_slopes, 1, 1);
-        s[i] = (sums){vf_zero(), vf_zero()};
+        s[i].count = vf_zero();
+        for (int32_t p = 0; p < b->planes; p++)
+            s[i].values[p] = vf_zero();
     }
     crv__block at = *b;
     crv__block_move(&at, FIRST, FIRST);
@@ -87,7 +90,7 @@ CRV__INLINE void block(const crv__block *b, const crv__limits *limits, float *ou
     add_column(s, limits, c, &at, 0, with_normals);
     add_column(s, limits, c, &at, 1, with_normals);
     for (int32_t i = 0; i < CRV__BLOCK_ROWS; i++)
-        crv__block_store(out + i * out_pitch, c[i].depth, s[i].values / s[i].count);
+        crv__block_store(out, i, b->planes, c[i].depth, s[i].values, s[i].count);
 }
 
 CRV__BLOCK_RUN(run, block, CRV__BLOCK_ROWS)
@@ -98,10 +101,10 @@ static const crv__filter_ways WAYS = {.rows = CRV__BLOCK_ROWS,
                                       .run = run,
                                       .pixels = slowly};
 
-void CRV__NAME(box4)(const crv__frame *f, const crv__plane *input, const crv__plane *out,
-                     crv__tile tile);
-void CRV__NAME(box4)(const crv__frame *f, const crv__plane *input, const crv__plane *out,
-                     crv__tile tile)
+void CRV__NAME(box4)(const crv__frame *f, const crv__picture *input,
+                     const crv__picture *out, crv__tile tile);
+void CRV__NAME(box4)(const crv__frame *f, const crv__picture *input,
+                     const crv__picture *out, crv__tile tile)
 {
-    crv__filter_pass(f, input, out, tile, &WAYS);
+    crv__filter_pass(f, input, out, crv__planes_of(input), tile, &WAYS);
 }

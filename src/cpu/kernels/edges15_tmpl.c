@@ -2,7 +2,8 @@
 /*
  * filters/edges15.c for the lanes of a vector. A tile is gone through row by row: a row
  * is filtered across, and down with the rows before it, each level as soon as its rows
- * are there. Edges are computed once for each pair of pixels, weights for each pixel.
+ * are there. Edges are computed once for each pair of pixels, weights once for each
+ * pixel, for accessibility and bent normals alike.
  *
  * What is no tap has an infinite depth here, so that its edges come out as 0: what lies
  * outside the input, background, and values that are none.
@@ -12,10 +13,12 @@
 enum {
     RADIUS = 7,
     MARGIN = 8, /* beside the tile: RADIUS, and slopes read one more */
-    LEFT = 16,  /* the tile's first column in a line */
+    LEFT = 24,  /* the tile's first column in a line; that of the margin is aligned */
     WIDTH = CRV__FILTER_TILE_WIDTH,
     PITCH = LEFT + WIDTH + LEFT,
-    ROWS = 6 /* that are kept: from the one above to that 4 below */
+    ROWS = 6, /* that are kept: from the one above to that 4 below */
+    PLANES = CRV__PLANES,
+    AHEAD = 3 /* rows that are taken before they are filtered across */
 };
 
 static const float STRICT = 0.25f, LONELY = 0.1f;
@@ -25,6 +28,7 @@ static const float FAR_WEIGHT = 1.0f / 3, FAR_EVENNESS = 0.5f;
 /* A row of the tile. */
 typedef struct row {
     _Alignas(64) float depth[PITCH];  /* infinite: no tap */
+    float value[PITCH];               /* accessibility; 0: no tap */
     float across[PITCH], down[PITCH]; /* slopes */
     float copies[3][PITCH];           /* of normals that leave the planes */
     const float *normal[3];
@@ -36,40 +40,40 @@ typedef struct sides {
     vf before, after;
 } sides;
 
-typedef struct line_sides {
-    _Alignas(64) float before[PITCH], after[PITCH];
-} line_sides;
+/* A row across: edges to the pixels 1, 2 and 4 further on, weights of the second and
+ * third level, and values before each level. What is read beside the margins is 0. */
+typedef struct line {
+    _Alignas(64) float edges[3][PITCH], before[2][PITCH], after[2][PITCH];
+    float bent[PLANES - 1][PITCH];
+    float first[PLANES][PITCH], second[PLANES][PITCH];
+} line;
 
-typedef struct row_sides {
-    _Alignas(64) float before[WIDTH], after[WIDTH];
-} row_sides;
-
-/* What the levels down read, as rings of rows: edges to the rows below, and weights. */
+/* What the rows down leave for those below, as rings of as many rows as lie between:
+ * edges, weights, and values before each level. */
 typedef struct column {
-    _Alignas(64) float edge1[2][WIDTH], edge2[3][WIDTH], edge4[5][WIDTH];
-    row_sides sides1[2], sides2[4], sides4[8];
+    _Alignas(64) float edge1[WIDTH], edge2[2][WIDTH], edge4[4][WIDTH];
+    float before2[2][WIDTH], after2[2][WIDTH], before4[6][WIDTH], after4[6][WIDTH];
+    float across[PLANES][2][WIDTH], first[PLANES][4][WIDTH], second[PLANES][8][WIDTH];
 } column;
-
-/* And values. */
-typedef struct values {
-    _Alignas(64) float across[3][WIDTH], first[5][WIDTH], second[9][WIDTH];
-} values;
 
 /* A plane's row from column x - LEFT on, PITCH floats; `fill` beside what it holds. */
 CRV__INLINE const float *line_of(const crv__plane *plane, int32_t x, int32_t y,
-                                 float fill, float *line)
+                                 float fill, float *copy)
 {
     const int32_t first = x - LEFT - plane->x0, right = plane->width - first;
     const bool is_there = y >= plane->y0 && y < plane->y0 + plane->height;
     if (is_there && first >= 0 && right >= PITCH)
         return crv__plane_at(plane, x - LEFT, y);
     const int32_t from = first < 0 ? -first : 0, to = right < PITCH ? right : PITCH;
-    for (int32_t i = 0; i < PITCH; i++)
-        line[i] = fill;
-    if (is_there && from < to)
-        __builtin_memcpy(line + from, crv__plane_at(plane, x - LEFT + from, y),
-                         (size_t)(to - from) * sizeof *line);
-    return line;
+    const bool holds = is_there && from < to;
+    for (int32_t i = 0; i < (holds ? from : PITCH); i++)
+        copy[i] = fill;
+    for (int32_t i = to; i < PITCH && holds; i++)
+        copy[i] = fill;
+    if (holds)
+        __builtin_memcpy(copy + from, crv__plane_at(plane, x - LEFT + from, y),
+                         (size_t)(to - from) * sizeof *copy);
+    return copy;
 }
 
 /* crv__slope(): of the two one-sided differences the smaller, the earlier if equal. */
@@ -94,15 +98,64 @@ CRV__NOINLINE void take_row(const crv__frame *f, const crv__plane *input, int32_
         r->normal[i] = line_of(&f->normal[i], x, y, 0, r->copies[i]);
     for (int32_t i = LEFT - MARGIN; i < LEFT + width + MARGIN; i += CRV__LANES) {
         const vf d = vf_load(depth + i), v = vf_load(value + i);
+        for (int32_t k = 0; k < 3; k++)
+            __builtin_prefetch(r->normal[k] + 2 * f->normal[k].pitch + i);
+        __builtin_prefetch(below + 2 * plane->pitch + i);
+        __builtin_prefetch(value + 2 * input->pitch + i);
         vf across = vf_zero(), down = vf_zero();
         if (f->params->filter_slope) {
             across = smaller_slope(vf_load(depth + i - 1), d, vf_load(depth + i + 1));
             down = smaller_slope(vf_load(above + i), d, vf_load(below + i));
         }
-        vf_store(r->depth + i, vf_select(vf_le(v, v), d, vf_set(INFINITY)));
+        const vm is_tap = vm_and(vf_le(v, v), vf_lt(d, vf_set(INFINITY)));
+        vf_store(r->depth + i, vf_select(is_tap, d, vf_set(INFINITY)));
+        vf_store(r->value + i, vf_where(is_tap, v));
         vf_store(r->across + i, across);
         vf_store(r->down + i, down);
     }
+}
+
+/* A row of a component of bent normals; 0 where there is no tap. */
+CRV__NOINLINE void take_bent(const crv__plane *input, const row *r, int32_t x, int32_t y,
+                             int32_t width, float *out)
+{
+    _Alignas(64) float room[PITCH];
+    const float *values = line_of(input, x, y, 0, room);
+    for (int32_t i = LEFT - MARGIN; i < LEFT + width + MARGIN; i += CRV__LANES)
+        vf_store(out + i, vf_where(vf_lt(vf_load(r->depth + i), vf_set(INFINITY)),
+                                   vf_load(values + i)));
+}
+
+CRV__INLINE int is_some_tap(vf depth)
+{
+    return vm_any(vf_lt(depth, vf_set(INFINITY)));
+}
+
+/* What edges are made with. Loops are given it by value: what they store may be anything
+ * to the compiler. */
+typedef struct limits {
+    vf normal, base; /* likeness = normal * cosine + base */
+    vf unit;         /* proximity = unit * deviation + 1 */
+    vf strict_less, strict_more;
+} limits;
+
+CRV__INLINE limits limits_of(const crv__params *p)
+{
+    const float unit = -1 / p->filter_depth;
+    return (limits){vf_set(p->filter_normal), vf_set(1 - p->filter_normal), vf_set(unit),
+                    vf_set((1 - STRICT) * unit), vf_set(STRICT * unit)};
+}
+
+/* A row as the loops see it. */
+typedef struct view {
+    const float *depth, *slope, *normal[3];
+} view;
+
+CRV__INLINE view view_of(const row *r, const float *slope, int32_t at)
+{
+    return (view){r->depth + at,
+                  slope + at,
+                  {r->normal[0] + at, r->normal[1] + at, r->normal[2] + at}};
 }
 
 /* A vector of pixels. */
@@ -111,248 +164,304 @@ typedef struct place {
     crv__v3 normal;
 } place;
 
-CRV__INLINE place place_at(const row *r, const float *slope, int32_t i)
+CRV__INLINE place place_at(const view *v, int32_t i)
 {
-    return (place){vf_load(r->depth + i),
-                   vf_load(slope + i),
-                   {vf_load(r->normal[0] + i), vf_load(r->normal[1] + i),
-                    vf_load(r->normal[2] + i)}};
+    return (place){vf_load(v->depth + i),
+                   vf_load(v->slope + i),
+                   {vf_load(v->normal[0] + i), vf_load(v->normal[1] + i),
+                    vf_load(v->normal[2] + i)}};
 }
 
 /* The same with normals times filter_normal, as edge() wants them of the earlier one. */
-CRV__INLINE place scaled_place_at(const row *r, const float *slope, int32_t i, vf scale)
+CRV__INLINE place scaled_place_at(const view *v, int32_t i, const limits *l)
 {
-    place a = place_at(r, slope, i);
-    a.normal = (crv__v3){a.normal.x * scale, a.normal.y * scale, a.normal.z * scale};
+    place a = place_at(v, i);
+    a.normal =
+        (crv__v3){a.normal.x * l->normal, a.normal.y * l->normal, a.normal.z * l->normal};
     return a;
 }
 
 /* The edges of pixels that are `apart`. */
-CRV__INLINE vf edge(const crv__params *p, const place *a, const place *b, int32_t apart)
+CRV__INLINE vf edge(const limits *l, const place *a, const place *b, int32_t apart)
 {
-    const vf one = vf_set(1), minus = vf_set((float)-apart);
-    const vf rise = b->depth - a->depth;
+    const vf minus = vf_set((float)-apart), rise = b->depth - a->depth;
     const vf first = vf_fma(minus, a->slope, rise),
-             second = vf_abs(vf_fma(minus, b->slope, rise));
-    const vf less = vf_min_abs(first, second);
-    const vf off = apart == 1 ? vf_fma(vf_set(STRICT), vf_max(vf_abs(first), second),
-                                       vf_set(1 - STRICT) * less)
-                              : less;
-    const vf proximity = vf_fma(off, vf_set(-1 / p->filter_depth), one);
-    const vf likeness =
-        vf_fma(a->normal.x, b->normal.x,
-               vf_fma(a->normal.y, b->normal.y,
-                      vf_fma(a->normal.z, b->normal.z, vf_set(1 - p->filter_normal))));
+             second = vf_fma(minus, b->slope, rise);
+    const vf less = vf_least_abs(first, second), one = vf_set(1);
+    const vf proximity =
+        apart == 1 ? vf_fma(less, l->strict_less,
+                            vf_fma(vf_most_abs(first, second), l->strict_more, one))
+                   : vf_fma(less, l->unit, one);
+    const vf likeness = vf_fma(
+        a->normal.x, b->normal.x,
+        vf_fma(a->normal.y, b->normal.y, vf_fma(a->normal.z, b->normal.z, l->base)));
     return vf_max(vf_min(likeness, proximity), vf_zero());
 }
 
-/* The sides' shares of the sum of weights; returns the sum. */
-CRV__INLINE vf share(vf own, vf before, vf after, sides *s)
-{
-    const vf sum = own + (before + after);
-    const vf part = vf_set(1) / sum;
-    *s = (sides){before * part, after * part};
-    return sum;
-}
-
-/* Both sides, nearer to the smaller one by a portion. */
-CRV__INLINE sides evened(sides s, vf portion)
-{
-    const vf rest = vf_set(1) - portion, both = portion * vf_min(s.before, s.after);
-    return (sides){vf_fma(rest, s.before, both), vf_fma(rest, s.after, both)};
-}
-
-/* A pixel's weights at all levels, in units of the sides' weight, from the edges before
- * and after it; `before` and `after` of the first are taps if their depth is finite. */
+/* A pixel's weights at all levels, from the edges before and after it; `before` and
+ * `after` of the first are taps if their depth is finite. Sums are in units that save
+ * multiplications, and are all divided by at once: they lie between 0.75 and 8. */
 CRV__INLINE void weigh(const sides edges[3], vf before, vf after, sides out[3])
 {
-    const vf one = vf_set(1), infinity = vf_set(INFINITY), own = vf_set(1 / NEAR_WEIGHT);
+    const vf infinity = vf_set(INFINITY);
     const vf l = edges[0].before, r = edges[0].after;
-    const vf least = vf_max(vf_fma(vf_set(-LONELY), l + r, vf_set(LONELY)), vf_zero());
-    const vf sum1 = share(own, vf_where(vf_lt(before, infinity), vf_max(l, least)),
-                          vf_where(vf_lt(after, infinity), vf_max(r, least)), &out[0]);
-    const sides near = evened(edges[1], vf_set(NEAR_EVENNESS));
-    const vf sum2 = share(own, near.before, near.after, &out[1]);
+    const vf least = vf_fma(vf_set(-LONELY), l + r, vf_set(LONELY)); /* edges are >= 0 */
+    const vf before1 = vf_where(vf_lt(before, infinity), vf_max(l, least)),
+             after1 = vf_where(vf_lt(after, infinity), vf_max(r, least));
+    const vf sum1 = vf_set(1 / NEAR_WEIGHT) + (before1 + after1);
+
+    const float uneven = 1 - NEAR_EVENNESS;
+    const vf both2 = vf_min(edges[1].before, edges[1].after),
+             before2 = vf_fma(vf_set(NEAR_EVENNESS / uneven), both2, edges[1].before),
+             after2 = vf_fma(vf_set(NEAR_EVENNESS / uneven), both2, edges[1].after);
+    const vf sum2 = vf_set(1 / (NEAR_WEIGHT * uneven)) + (before2 + after2);
+
     /* Twice what was found, of 4 by 4 on a flat surface. */
-    const vf enough = vf_min(vf_set(2.0f / 16) * (sum1 * sum2), one);
-    const sides far = evened(edges[2], vf_set(FAR_EVENNESS) * enough);
-    share(vf_set(1 / FAR_WEIGHT) * enough * enough, far.before, far.after, &out[2]);
+    const vf found = sum1 * sum2;
+    const vf enough = vf_min(vf_set(2.0f / 16 * uneven) * found, vf_set(1));
+    const vf portion = vf_set(FAR_EVENNESS) * enough, rest = vf_set(1) - portion;
+    const vf both4 = portion * vf_min(edges[2].before, edges[2].after),
+             before4 = vf_fma(rest, edges[2].before, both4),
+             after4 = vf_fma(rest, edges[2].after, both4);
+    const vf sum4 = vf_fma(vf_set(1 / FAR_WEIGHT) * enough, enough, before4 + after4);
+
+    const vf all = vf_rcp(found * sum4), near = all * sum4;
+    const vf part1 = near * sum2, part2 = near * sum1, part4 = all * found;
+    out[0] = (sides){before1 * part1, after1 * part1};
+    out[1] = (sides){before2 * part2, after2 * part2};
+    out[2] = (sides){before4 * part4, after4 * part4};
 }
 
-CRV__INLINE vf mean(vf own, vf before, vf after, const float *share_before,
-                    const float *share_after)
+CRV__INLINE vf mean(vf own, vf before, vf after, const sides *s)
 {
-    return vf_fma(vf_load(share_before), before - own,
-                  vf_fma(vf_load(share_after), after - own, own));
+    return vf_fma(s->before, before - own, vf_fma(s->after, after - own, own));
 }
 
-/* Sets what levels read beside the part of a line from `from` to `to`. */
-CRV__INLINE void clear_beside(float *line, int32_t from, int32_t to)
+CRV__NOINLINE void edges_across(const crv__params *p, const row *r, int32_t width,
+                                line *out)
 {
-    for (int32_t i = 1; i <= 4; i++)
-        line[from - i] = line[to + i - 1] = 0;
-}
-
-/* One level along a line. */
-CRV__INLINE void level_across(const float *in, const line_sides *s, int32_t step,
-                              int32_t from, int32_t to, float *out)
-{
-    for (int32_t i = from; i < to; i += CRV__LANES)
-        vf_store(out + i, mean(vf_load(in + i), vf_load(in + i - step),
-                               vf_load(in + i + step), s->before + i, s->after + i));
-}
-
-/* Edges and weights along a row. */
-CRV__NOINLINE void weigh_across(const crv__params *p, const row *r, int32_t width,
-                                line_sides out[3])
-{
-    _Alignas(64) float edges[3][PITCH];
-    const int32_t from = LEFT - MARGIN, to = LEFT + width + MARGIN;
-    for (int32_t k = 0; k < 3; k++)
-        clear_beside(edges[k], from, to);
-    for (int32_t i = from; i < to; i += CRV__LANES) {
-        const place own = scaled_place_at(r, r->across, i, vf_set(p->filter_normal));
+    const limits l = limits_of(p);
+    const view v = view_of(r, r->across, 0);
+    for (int32_t i = LEFT - MARGIN; i < LEFT + width + MARGIN; i += CRV__LANES) {
+        const place own = scaled_place_at(&v, i, &l);
+        const int some = is_some_tap(own.depth);
         for (int32_t k = 0; k < 3; k++) {
-            const place other = place_at(r, r->across, i + (1 << k));
-            vf_store(edges[k] + i, edge(p, &own, &other, 1 << k));
+            vf e = vf_zero();
+            if (some) {
+                const place other = place_at(&v, i + (1 << k));
+                e = edge(&l, &own, &other, 1 << k);
+            }
+            vf_store(out->edges[k] + i, e);
         }
     }
+}
+
+/* A level's mean along a line. */
+CRV__INLINE vf mean_across(const float *values, int32_t step, const sides *s)
+{
+    return mean(vf_load(values), vf_load(values - step), vf_load(values + step), s);
+}
+
+/* The first two levels along a row, and the weights of the third. */
+CRV__INLINE void levels_across(const row *r, int32_t width, int32_t planes, line *l)
+{
+    const int32_t from = LEFT - MARGIN, to = LEFT + width + MARGIN;
     for (int32_t i = from; i < to; i += CRV__LANES) {
-        sides e[3], s[3];
+        const vf zero = vf_zero();
+        sides e[3], s[3] = {{zero, zero}, {zero, zero}, {zero, zero}};
         for (int32_t k = 0; k < 3; k++)
-            e[k] = (sides){vf_load(edges[k] + i - (1 << k)), vf_load(edges[k] + i)};
-        weigh(e, vf_load(r->depth + i - 1), vf_load(r->depth + i + 1), s);
-        for (int32_t k = 0; k < 3; k++) {
-            vf_store(out[k].before + i, s[k].before);
-            vf_store(out[k].after + i, s[k].after);
+            e[k] = (sides){vf_load(l->edges[k] + i - (1 << k)), vf_load(l->edges[k] + i)};
+        if (is_some_tap(vf_load(r->depth + i)))
+            weigh(e, vf_load(r->depth + i - 1), vf_load(r->depth + i + 1), s);
+        for (int32_t k = 0; k < 2; k++) {
+            vf_store(l->before[k] + i, s[k + 1].before);
+            vf_store(l->after[k] + i, s[k + 1].after);
         }
+        for (int32_t p = 0; p < planes; p++) {
+            const float *values = p == 0 ? r->value : l->bent[p - 1];
+            vf_store(l->first[p] + i, mean_across(values + i, 1, &s[0]));
+        }
+    }
+    for (int32_t i = from; i < to; i += CRV__LANES) {
+        const sides s = {vf_load(l->before[0] + i), vf_load(l->after[0] + i)};
+        for (int32_t p = 0; p < planes; p++)
+            vf_store(l->second[p] + i, mean_across(l->first[p] + i, 2, &s));
     }
 }
 
-/* The row y of a plane, filtered across. */
-CRV__INLINE void filter_across(const crv__plane *input, const row *r, int32_t x,
-                               int32_t y, int32_t width, const line_sides s[3],
-                               float *out)
+/* Takes the weights that a ring has, and leaves others. */
+CRV__INLINE sides exchanged(float *before, float *after, sides s)
 {
-    _Alignas(64) float value[PITCH], first[PITCH], second[PITCH];
-    const float *own = line_of(input, x, y, 0, value);
-    const int32_t from = LEFT - MARGIN, to = LEFT + width + MARGIN;
-    for (int32_t i = from; i < to; i += CRV__LANES)
-        vf_store(value + i, vf_where(vf_lt(vf_load(r->depth + i), vf_set(INFINITY)),
-                                     vf_load(own + i)));
-    clear_beside(value, from, to);
-    clear_beside(first, from, to);
-    clear_beside(second, from, to);
-    level_across(value, &s[0], 1, from, to, first);
-    level_across(first, &s[1], 2, from, to, second);
-    for (int32_t i = 0; i < width; i += CRV__LANES) {
-        const int32_t k = LEFT + i;
-        const vf v = mean(vf_load(second + k), vf_load(second + k - 4),
-                          vf_load(second + k + 4), s[2].before + k, s[2].after + k);
-        vf_store(out + i, vf_clamp01(v));
-    }
+    const sides old = {vf_load(before), vf_load(after)};
+    vf_store(before, s.before);
+    vf_store(after, s.after);
+    return old;
 }
 
-/* The edges from the k-th row of a tile to those below, and its weights. */
-CRV__NOINLINE void weigh_down(const crv__params *p, const row *rows, int32_t k,
-                              int32_t width, column *c)
+CRV__INLINE vf exchanged_value(float *at, vf value)
 {
-    const row *own = &rows[k % ROWS], *above = &rows[(k + ROWS - 1) % ROWS],
-              *below[3] = {&rows[(k + 1) % ROWS], &rows[(k + 2) % ROWS],
-                           &rows[(k + 4) % ROWS]};
-    float *edge1 = c->edge1[k % 2], *edge2 = c->edge2[k % 3], *edge4 = c->edge4[k % 5];
-    const float *before1 = c->edge1[(k + 1) % 2], *before2 = c->edge2[(k + 1) % 3],
-                *before4 = c->edge4[(k + 1) % 5];
-    row_sides *out[3] = {&c->sides1[k % 2], &c->sides2[k % 4], &c->sides4[k % 8]};
+    const vf old = vf_load(at);
+    vf_store(at, value);
+    return old;
+}
+
+/* Of the row before the k-th: edges to those below, and weights. */
+CRV__INLINE void weigh_down(const limits *l, const view at[5], int32_t i, int32_t k,
+                            column *c, sides out[3])
+{
+    const vf zero = vf_zero();
+    vf e[3] = {zero, zero, zero};
+    out[0] = out[1] = out[2] = (sides){zero, zero};
+    const place a = scaled_place_at(&at[1], i, l);
+    const int some = is_some_tap(a.depth);
+    for (int32_t n = 0; n < 3 && some; n++) {
+        const place b = place_at(&at[n + 2], i);
+        e[n] = edge(l, &a, &b, 1 << n);
+    }
+    const sides edges[3] = {{exchanged_value(c->edge1 + i, e[0]), e[0]},
+                            {exchanged_value(c->edge2[k % 2] + i, e[1]), e[1]},
+                            {exchanged_value(c->edge4[k % 4] + i, e[2]), e[2]}};
+    if (some)
+        weigh(edges, vf_load(at[0].depth + i), vf_load(at[2].depth + i), out);
+}
+
+/* Where a row of results goes. */
+typedef struct output {
+    const float *value, *depth; /* the input's accessibility, and depth, there */
+    float *to[PLANES];
+    int32_t width;
+} output;
+
+/* An accessibility that is none stays so; that of background is 1. */
+CRV__INLINE void store_result(const output *out, int32_t p, int32_t i, vf result)
+{
+    const int32_t count = out->width - i;
+    if (p == 0) {
+        const vf own = vf_load_n(out->value + i, count);
+        const vm surface = vf_lt(vf_load_n(out->depth + i, count), vf_set(INFINITY));
+        const vf a = vf_select(vf_le(own, own), vf_clamp01(result), own);
+        result = vf_select(surface, a, vf_set(1));
+    }
+    vf_store_n(out->to[p] + i, result, count);
+}
+
+/* The last level across of the k-th row, and those down that can be done then: the first
+ * of the row before it, the second 2 before that, and the third 4 before that. Its
+ * results are stored unless `out` is NULL. */
+CRV__INLINE void levels_down(const crv__params *p, const row *rows, const line *l,
+                             int32_t k, int32_t width, int32_t planes, column *c,
+                             const output *out)
+{
+    const limits own = limits_of(p);
+    view at[5]; /* the row above that before the k-th, itself, and 1, 2 and 4 below */
+    static const int32_t PLACE[5] = {-2, -1, 0, 1, 3};
+    for (int32_t n = 0; n < 5; n++) {
+        const row *r = &rows[(k + ROWS + PLACE[n]) % ROWS];
+        at[n] = view_of(r, r->down, LEFT);
+    }
     for (int32_t i = 0; i < width; i += CRV__LANES) {
-        const place a =
-            scaled_place_at(own, own->down, LEFT + i, vf_set(p->filter_normal));
-        vf e[3];
-        for (int32_t n = 0; n < 3; n++) {
-            const place b = place_at(below[n], below[n]->down, LEFT + i);
-            e[n] = edge(p, &a, &b, 1 << n);
-        }
-        const sides edges[3] = {{vf_load(before1 + i), e[0]},
-                                {vf_load(before2 + i), e[1]},
-                                {vf_load(before4 + i), e[2]}};
-        vf_store(edge1 + i, e[0]);
-        vf_store(edge2 + i, e[1]);
-        vf_store(edge4 + i, e[2]);
+        const sides across = {vf_load(l->before[1] + LEFT + i),
+                              vf_load(l->after[1] + LEFT + i)};
         sides s[3];
-        weigh(edges, vf_load(above->depth + LEFT + i),
-              vf_load(below[0]->depth + LEFT + i), s);
-        for (int32_t n = 0; n < 3; n++) {
-            vf_store(out[n]->before + i, s[n].before);
-            vf_store(out[n]->after + i, s[n].after);
+        weigh_down(&own, at, i, k, c, s);
+        s[1] = exchanged(c->before2[k % 2] + i, c->after2[k % 2] + i, s[1]);
+        s[2] = exchanged(c->before4[k % 6] + i, c->after4[k % 6] + i, s[2]);
+        for (int32_t n = 0; n < planes; n++) {
+            float(*first)[WIDTH] = c->first[n], (*second)[WIDTH] = c->second[n];
+            vf v = mean_across(l->second[n] + LEFT + i, 4, &across);
+            v = n == 0 ? vf_clamp01(v) : v;
+            const vf above1 = exchanged_value(c->across[n][k % 2] + i, v);
+            v = mean(vf_load(c->across[n][(k + 1) % 2] + i), above1, v, &s[0]);
+            const vf above2 = exchanged_value(first[k % 4] + i, v);
+            v = mean(vf_load(first[(k + 2) % 4] + i), above2, v, &s[1]);
+            const vf above4 = exchanged_value(second[k % 8] + i, v);
+            v = mean(vf_load(second[(k + 4) % 8] + i), above4, v, &s[2]);
+            if (out)
+                store_result(out, n, i, v);
         }
     }
 }
 
-/* One level down. */
-CRV__INLINE void level_down(const float *own, const float *above, const float *below,
-                            const row_sides *s, int32_t width, float *out)
+/* Fills a tile without surfaces and returns true; else false. */
+CRV__INLINE bool is_background(const crv__frame *f, const crv__plane *const out[],
+                               int32_t planes, crv__tile tile)
 {
-    for (int32_t i = 0; i < width; i += CRV__LANES)
-        vf_store(out + i, mean(vf_load(own + i), vf_load(above + i), vf_load(below + i),
-                               s->before + i, s->after + i));
+    for (int32_t y = tile.y0; y < tile.y1; y++)
+        for (int32_t x = tile.x0; x < tile.x1; x += CRV__LANES) {
+            const int32_t count = tile.x1 - x;
+            const vf depth = vf_load_n(crv__plane_at(&f->depth[0], x, y), count);
+            if (vm_any(vm_and(vm_first(count), vf_lt(depth, vf_set(INFINITY)))))
+                return false;
+        }
+    for (int32_t p = 0; p < planes; p++)
+        for (int32_t y = tile.y0; y < tile.y1; y++)
+            for (int32_t x = tile.x0; x < tile.x1; x += CRV__LANES)
+                vf_store_n(crv__plane_at(out[p], x, y), vf_set(p == 0 ? 1 : 0),
+                           tile.x1 - x);
+    return true;
 }
 
-/* The last level down, of a row of `width` pixels from (x, y) on. A value that is none
- * stays so; background is 1. */
-CRV__INLINE void store_row(const crv__frame *f, const crv__plane *input,
-                           const crv__plane *out, int32_t x, int32_t y, int32_t width,
-                           const float *result)
+CRV__INLINE void filter_tile(const crv__frame *f, const crv__plane *const input[],
+                             const crv__plane *const out[], int32_t planes,
+                             crv__tile tile)
 {
-    const float *value = crv__plane_at(input, x, y),
-                *depth = crv__plane_at(&f->depth[0], x, y);
-    float *to = crv__plane_at(out, x, y);
-    for (int32_t i = 0; i < width; i += CRV__LANES) {
-        const vf own = vf_load_n(value + i, width - i);
-        const vm surface = vf_lt(vf_load_n(depth + i, width - i), vf_set(INFINITY));
-        const vf a = vf_select(vf_le(own, own), vf_clamp01(vf_load(result + i)), own);
-        vf_store_n(to + i, vf_select(surface, a, vf_set(1)), width - i);
-    }
-}
-
-/* The levels down whose last row is the k-th: the first of the row before it, the second
- * 2 before that, and of the row 4 before that, which is returned, the third. */
-CRV__INLINE void go_down(values *v, const column *c, int32_t k, int32_t width, float *out)
-{
-    if (k >= 2)
-        level_down(v->across[(k - 1) % 3], v->across[(k - 2) % 3], v->across[k % 3],
-                   &c->sides1[(k - 1) % 2], width, v->first[(k - 1) % 5]);
-    if (k >= 6)
-        level_down(v->first[(k - 3) % 5], v->first[(k - 5) % 5], v->first[(k - 1) % 5],
-                   &c->sides2[(k - 3) % 4], width, v->second[(k - 3) % 9]);
-    if (k >= 2 * RADIUS)
-        level_down(v->second[(k - 7) % 9], v->second[(k - 11) % 9],
-                   v->second[(k - 3) % 9], &c->sides4[(k - 7) % 8], width, out);
-}
-
-void CRV__NAME(edges15)(const crv__frame *f, const crv__plane *input,
-                        const crv__plane *out, crv__tile tile);
-void CRV__NAME(edges15)(const crv__frame *f, const crv__plane *input,
-                        const crv__plane *out, crv__tile tile)
-{
+    if (is_background(f, out, planes, tile))
+        return;
     const int32_t width = tile.x1 - tile.x0, rows = tile.y1 - tile.y0 + 2 * RADIUS;
     const int32_t whole = (width + CRV__LANES - 1) / CRV__LANES * CRV__LANES;
-    const int32_t top = tile.y0 - RADIUS;
+    const int32_t x = tile.x0, top = tile.y0 - RADIUS;
     row window[ROWS] = {0};
+    line l = {0};
     column c = {0};
-    values v = {0};
-    for (int32_t k = 0; k < 4; k++)
-        take_row(f, input, tile.x0, top + k, whole, &window[k]);
+    for (int32_t k = 0; k < ROWS * 3; k++) /* of rows before the first */
+        window[k / 3].normal[k % 3] = window[k / 3].copies[k % 3];
+    for (int32_t k = 0; k < AHEAD; k++)
+        take_row(f, input[0], x, top + k, whole, &window[k]);
     for (int32_t k = 0; k < rows; k++) {
-        line_sides along[3];
-        _Alignas(64) float result[WIDTH];
-        if (k + 4 < rows)
-            take_row(f, input, tile.x0, top + k + 4, whole, &window[(k + 4) % ROWS]);
+        if (k + AHEAD < rows)
+            take_row(f, input[0], x, top + k + AHEAD, whole, &window[(k + AHEAD) % ROWS]);
         const row *r = &window[k % ROWS];
-        weigh_across(f->params, r, whole, along);
-        filter_across(input, r, tile.x0, top + k, whole, along, v.across[k % 3]);
-        weigh_down(f->params, window, k, whole, &c);
-        go_down(&v, &c, k, whole, result);
-        if (k >= 2 * RADIUS)
-            store_row(f, input, out, tile.x0, top + k - RADIUS, width, result);
+        for (int32_t p = 1; p < planes; p++)
+            take_bent(input[p], r, x, top + k, whole, l.bent[p - 1]);
+        edges_across(f->params, r, whole, &l);
+        levels_across(r, whole, planes, &l);
+        if (k < 2 * RADIUS) {
+            levels_down(f->params, window, &l, k, whole, planes, &c, NULL);
+            continue;
+        }
+        const int32_t y = top + k - RADIUS;
+        output to = {.value = crv__plane_at(input[0], x, y),
+                     .depth = crv__plane_at(&f->depth[0], x, y),
+                     .width = width};
+        for (int32_t p = 0; p < planes; p++)
+            to.to[p] = crv__plane_at(out[p], x, y);
+        levels_down(f->params, window, &l, k, whole, planes, &c, &to);
     }
+}
+
+CRV__NOINLINE void filter_accessibility(const crv__frame *f, const crv__plane *input,
+                                        const crv__plane *out, crv__tile tile)
+{
+    filter_tile(f, &input, &out, 1, tile);
+}
+
+CRV__NOINLINE void filter_all(const crv__frame *f, const crv__picture *input,
+                              const crv__picture *out, crv__tile tile)
+{
+    const crv__plane *const inputs[PLANES] = {&input->accessibility, &input->bent[0],
+                                              &input->bent[1], &input->bent[2]};
+    const crv__plane *const outs[PLANES] = {&out->accessibility, &out->bent[0],
+                                            &out->bent[1], &out->bent[2]};
+    filter_tile(f, inputs, outs, PLANES, tile);
+}
+
+void CRV__NAME(edges15)(const crv__frame *f, const crv__picture *input,
+                        const crv__picture *out, crv__tile tile);
+void CRV__NAME(edges15)(const crv__frame *f, const crv__picture *input,
+                        const crv__picture *out, crv__tile tile)
+{
+    if (input->bent[0].data)
+        filter_all(f, input, out, tile);
+    else
+        filter_accessibility(f, &input->accessibility, &out->accessibility, tile);
 }

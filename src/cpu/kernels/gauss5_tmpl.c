@@ -9,7 +9,7 @@ static const float BINOMIAL[(RADIUS + 1) * (RADIUS + 1)] = {36, 24, 6, 24, 16,
                                                             4,  6,  4, 1};
 
 typedef struct sums {
-    vf values, weights;
+    vf values[CRV__PLANES], weights;
 } sums;
 
 CRV__INLINE vf filter(const crv__window *w)
@@ -29,10 +29,10 @@ CRV__INLINE vf filter(const crv__window *w)
     return sum / weights;
 }
 
-CRV__NOINLINE void slowly(const crv__frame *f, const crv__plane *input, int32_t x,
-                          int32_t y, int32_t count, float *out)
+CRV__NOINLINE void slowly(const crv__frame *f, const crv__picture *input, int32_t plane,
+                          int32_t x, int32_t y, int32_t count, float *out)
 {
-    crv__filter_pixels(f, input, x, y, count, out, filter);
+    crv__filter_pixels(f, input, plane, x, y, count, out, filter);
 }
 
 /* Adds the tap of a column to all whose windows hold its row, counted from the block's
@@ -56,7 +56,8 @@ CRV__INLINE void add_tap(sums s[CRV__BLOCK_ROWS], const crv__limits *limits,
             if (with_normals)                                                            \
                 weight = weight * crv__block_likeness(limits, &c[i], &tap);              \
             weight = vf_max(weight, vf_zero());                                          \
-            s[i].values = vf_fma(weight, tap.value, s[i].values);                        \
+            for (int32_t p = 0; p < at->planes; p++)                                     \
+                s[i].values[p] = vf_fma(weight, tap.value[p], s[i].values[p]);           \
             s[i].weights = s[i].weights + weight;                                        \
         }                                                                                \
     } while (0)
@@ -83,14 +84,16 @@ CRV__INLINE void add_column(sums s[CRV__BLOCK_ROWS], const crv__limits *limits,
     crv__block_move(at, -RADIUS - RADIUS - CRV__BLOCK_ROWS, 1);
 }
 
-CRV__INLINE void block(const crv__block *b, const crv__limits *limits, float *out,
-                       ptrdiff_t out_pitch, int with_normals, int with_slopes)
+CRV__INLINE void block(const crv__block *b, const crv__limits *limits,
+                       const crv__block_out *out, int with_normals, int with_slopes)
 {
     crv__centre c[CRV__BLOCK_ROWS];
     sums s[CRV__BLOCK_ROWS];
     for (int32_t i = 0; i < CRV__BLOCK_ROWS; i++) {
         c[i] = crv__block_centre(b, limits, i, with_slopes, 1, 1);
-        s[i] = (sums){vf_zero(), vf_zero()};
+        s[i].weights = vf_zero();
+        for (int32_t p = 0; p < b->planes; p++)
+            s[i].values[p] = vf_zero();
     }
     crv__block at = *b;
     crv__block_move(&at, -RADIUS, -RADIUS);
@@ -100,7 +103,7 @@ CRV__INLINE void block(const crv__block *b, const crv__limits *limits, float *ou
     add_column(s, limits, c, &at, 1, with_normals);
     add_column(s, limits, c, &at, 2, with_normals);
     for (int32_t i = 0; i < CRV__BLOCK_ROWS; i++)
-        crv__block_store(out + i * out_pitch, c[i].depth, s[i].values / s[i].weights);
+        crv__block_store(out, i, b->planes, c[i].depth, s[i].values, s[i].weights);
 }
 
 CRV__BLOCK_RUN(run, block, CRV__BLOCK_ROWS)
@@ -111,10 +114,10 @@ static const crv__filter_ways WAYS = {.rows = CRV__BLOCK_ROWS,
                                       .run = run,
                                       .pixels = slowly};
 
-void CRV__NAME(gauss5)(const crv__frame *f, const crv__plane *input,
-                       const crv__plane *out, crv__tile tile);
-void CRV__NAME(gauss5)(const crv__frame *f, const crv__plane *input,
-                       const crv__plane *out, crv__tile tile)
+void CRV__NAME(gauss5)(const crv__frame *f, const crv__picture *input,
+                       const crv__picture *out, crv__tile tile);
+void CRV__NAME(gauss5)(const crv__frame *f, const crv__picture *input,
+                       const crv__picture *out, crv__tile tile)
 {
-    crv__filter_pass(f, input, out, tile, &WAYS);
+    crv__filter_pass(f, input, out, crv__planes_of(input), tile, &WAYS);
 }

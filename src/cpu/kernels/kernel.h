@@ -28,9 +28,10 @@ typedef struct crv__tile {
 enum { CRV__FILTER_TILE_WIDTH = 128, CRV__FILTER_TILE_HEIGHT = 84 };
 
 /* All passes of a filter over a rectangle no larger than a tile; as crv__filter.filter
- * for each pixel that is not background. */
-typedef void (*crv__filter_kernel)(const crv__frame *frame, const crv__plane *input,
-                                   const crv__plane *out, crv__tile tile);
+ * for each pixel that is not background. Accessibility is kept in [0, 1], and with bent
+ * normals in both pictures their components are filtered with the same weights. */
+typedef void (*crv__filter_kernel)(const crv__frame *frame, const crv__picture *input,
+                                   const crv__picture *out, crv__tile tile);
 
 /* A method's map over a rectangle no larger than a tile; as crv__map.value. */
 enum { CRV__MAP_TILE_WIDTH = 128, CRV__MAP_TILE_HEIGHT = 64 };

@@ -11,7 +11,7 @@
 #define CRV__MAP(method, name)                                                           \
     void CRV__NAME(name)(const crv__frame *, const crv__plane *, crv__tile);
 #define CRV__FILTER(name)                                                                \
-    void CRV__NAME(name)(const crv__frame *, const crv__plane *, const crv__plane *,     \
+    void CRV__NAME(name)(const crv__frame *, const crv__picture *, const crv__picture *, \
                          crv__tile);
 #define CRV__DEINTERLEAVED(name)                                                         \
     extern const crv__deinterleaved_method CRV__NAME(name##_deinterleaved);

@@ -5,6 +5,25 @@
 
 #include "cpu/kernels/lanes.h"
 
+/* Planes of a picture: accessibility, then the components of bent normals, how they
+ * deviate from the surface's normals, if there are any. They have the same rectangle and
+ * pitch. */
+enum { CRV__PLANES = 4 };
+
+CRV__INLINE const crv__plane *crv__plane_of(const crv__picture *picture, int32_t plane)
+{
+    return plane == 0 ? &picture->accessibility : &picture->bent[plane - 1];
+}
+
+/* A result of a filter: accessibility in [0, 1], background 1; of deviations 0 if there
+ * is no mean. */
+CRV__INLINE vf crv__filter_result(vf depth, vf result, int32_t plane)
+{
+    const vm surface = vf_lt(depth, vf_set(INFINITY));
+    return plane == 0 ? vf_select(surface, vf_clamp01(result), vf_set(1))
+                      : vf_where(vm_and(surface, vf_le(result, result)), result);
+}
+
 /* The lanes' centres, adjacent pixels of a row from x on. */
 typedef struct crv__window {
     const crv__frame *frame;
@@ -110,19 +129,18 @@ CRV__INLINE crv__taps crv__taps_at(const crv__window *w, int32_t dx, int32_t dy)
     return tap;
 }
 
-/* The slow and general way: `count` pixels of one row, wherever they are. A centre that
- * is NaN stays so, background is 1. */
-CRV__INLINE void crv__filter_pixels(const crv__frame *f, const crv__plane *input,
-                                    int32_t x, int32_t y, int32_t count, float *out,
-                                    vf (*filter)(const crv__window *))
+/* The slow and general way: `count` pixels of one row of a plane, wherever they are. A
+ * centre that is NaN stays so. */
+CRV__INLINE void crv__filter_pixels(const crv__frame *f, const crv__picture *input,
+                                    int32_t plane, int32_t x, int32_t y, int32_t count,
+                                    float *out, vf (*filter)(const crv__window *))
 {
-    const crv__window w = crv__window_at(f, input, x, y);
+    const crv__window w = crv__window_at(f, crv__plane_of(input, plane), x, y);
     vm inside;
-    const vf own = crv__row_read(input, x, y, &inside);
-    vf result = vf_clamp01(filter(&w));
-    result = vf_select(vf_le(own, own), result, own);
-    result = vf_select(vf_lt(w.depth, vf_set(INFINITY)), result, vf_set(1));
-    vf_store_n(out, result, count);
+    const vf own = crv__row_read(w.input, x, y, &inside);
+    const vf result = crv__filter_result(w.depth, filter(&w), plane);
+    const vm is_none = vm_and(vm_not(vf_le(own, own)), vf_lt(w.depth, vf_set(INFINITY)));
+    vf_store_n(out, vf_select(is_none, own, result), count);
 }
 
 #endif

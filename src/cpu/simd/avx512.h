@@ -276,4 +276,14 @@ CRV__INLINE vf vf_min_abs(vf a, vf b)
     return _mm512_range_ps(a, b, 2 << 2 | 2);
 }
 
+CRV__INLINE vf vf_least_abs(vf a, vf b)
+{
+    return _mm512_range_ps(a, b, 2 << 2 | 2);
+}
+
+CRV__INLINE vf vf_most_abs(vf a, vf b)
+{
+    return _mm512_range_ps(a, b, 2 << 2 | 3);
+}
+
 #endif

@@ -71,6 +71,17 @@ CRV__INLINE vf vf_min_abs(vf a, vf b)
     return vf_min(vf_of_bits(vf_bits(a) & vi_set(0x7fffffff)), b);
 }
 
+CRV__INLINE vf vf_least_abs(vf a, vf b)
+{
+    return vf_min_abs(a, vf_of_bits(vf_bits(b) & vi_set(0x7fffffff)));
+}
+
+CRV__INLINE vf vf_most_abs(vf a, vf b)
+{
+    const vi magnitude = vi_set(0x7fffffff);
+    return vf_max(vf_of_bits(vf_bits(a) & magnitude), vf_of_bits(vf_bits(b) & magnitude));
+}
+
 CRV__INLINE vf vf_rsqrt_fair(vf a)
 {
     return vf_rsqrt(a);

@@ -33,6 +33,8 @@
  *                            at q = limit either. If b is the NaN that an operation made
  *                            out of numbers: a
  *   vf_min_abs               the smaller of |a| and b >= 0; b if a is a NaN
+ *   vf_least_abs             the smaller of |a| and |b|; not of NaNs
+ *   vf_most_abs              the larger of them, likewise
  *   vi_from_bit              all bits from the n-th on; none from n = 32 on; n >= 0
  *   vi_below                 0 <= a < n, n > 0
  *   vf_gather                base[index]; 0 and no access where the mask is clear, though
