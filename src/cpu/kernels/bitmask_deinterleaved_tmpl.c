@@ -73,17 +73,9 @@ CRV__INLINE vf width_at(const crv__group_pixels *at, const crv__sample_place *pl
     const vf width = crv__sample_depth(at, crv__sample_at(at, place, 0, border) + skip);
     if (p->border == CRV_BORDER_BACKGROUND)
         return width;
-    const vi zero = vi_set(0), right = vi_set(p->width - 1),
-             bottom = vi_set(p->height - 1);
-    const vi u = at->x + vi_set(place->du), v = vi_set(at->y + place->dv);
-    const vm on = vm_and(vi_below(u, vi_set(p->width)), vi_below(v, vi_set(p->height)));
-    const vm off = vm_not(on);
-    if (!vm_any(off))
-        return width;
-    const vi x = vi_select(vi_lt(u, zero), zero, vi_select(vi_lt(right, u), right, u));
-    const vi y = vi_select(vi_lt(v, zero), zero, vi_select(vi_lt(bottom, v), bottom, v));
-    const vf border_width = vf_gather(f->map->data, crv__lanes_index(f->map, x, y), off);
-    return vf_select(off, border_width, width);
+    const crv__group_spot spot = crv__group_spot_at(at, place);
+    return vf_select(spot.off, crv__group_nearest(at, f->map, skip, &spot, spot.y),
+                     width);
 }
 
 /* run: how far along the slice the sample's surface has been seen. */
@@ -231,7 +223,8 @@ CRV__INLINE void blocked_shares(const crv__group_pixels *at, const crv__list *li
     sectors found[CRV__SLICES_AT_ONCE];
     scale scales[CRV__SLICES_AT_ONCE];
     for (int32_t k = 0; k < count; k++) {
-        float offset = w->noise->sector_offset + 0.754878f * (float)(first + k);
+        const int32_t number = crv__group_slice_number(at, first + k);
+        float offset = w->noise->sector_offset + 0.754878f * (float)number;
         offset -= (float)(int32_t)offset;
         scales[k].places = crv__group_measure_of(w, &s[k], SECTORS);
         scales[k].places.whole = scales[k].places.whole - vf_set(offset);
@@ -244,9 +237,9 @@ CRV__INLINE void blocked_shares(const crv__group_pixels *at, const crv__list *li
     for (int32_t i = 0; i < at->di->steps; i += MOST_STEPS) {
         risen all[MOST_RISEN], *end_of_all = all;
         for (int32_t k = 0; k < count; k++) {
-            const int32_t begin = (first + k) * at->di->steps,
-                          end = begin + list->counts[first + k],
-                          to = begin + i + MOST_STEPS;
+            const int32_t number = crv__group_slice_number(at, first + k),
+                          begin = number * at->di->steps,
+                          end = begin + list->counts[number], to = begin + i + MOST_STEPS;
             end_of_all = collect(end_of_all, &found[k], at, list, w, &s[k],
                                  scales[k].rise, c, k, begin + i, to < end ? to : end);
         }

@@ -106,7 +106,8 @@ CRV__INLINE void blocked_shares(const crv__group_pixels *at, const crv__list *li
 {
     for (int32_t k = 0; k < count; k++)
         shares[k] =
-            blocked_share(at, list, w, &s[k], c, first + k, vectors ? &vectors[k] : NULL);
+            blocked_share(at, list, w, &s[k], c, crv__group_slice_number(at, first + k),
+                          vectors ? &vectors[k] : NULL);
 }
 
 CRV__SLICES_SUMMED

@@ -14,8 +14,7 @@
 #ifndef CRV_CPU_KERNELS_SLICE_GROUPS_H
 #define CRV_CPU_KERNELS_SLICE_GROUPS_H
 
-#include "cpu/kernels/groups.h"
-#include "cpu/kernels/slice.h"
+#include "cpu/kernels/beyond.h"
 
 /* What does not change from slice to slice. */
 typedef struct crv__slice_view {
@@ -73,35 +72,50 @@ CRV__INLINE crv__slice_view crv__slice_view_of(const crv__group_pixels *at,
     return w;
 }
 
-CRV__INLINE crv__group_slice crv__group_slice_at(const crv__group_pixels *at,
-                                                 const crv__slice_view *w, int32_t k)
+/* What follows of a slice from its T, b and tangent; scale: 1 over the root that T was
+ * divided by. */
+CRV__INLINE void crv__group_slice_finish(crv__group_slice *s, const crv__group_pixels *at,
+                                         const crv__slice_view *w, vf scale)
+{
+    const vf half = vf_set(0.5f);
+    s->b_over_a = s->b * w->inverse_a;
+    s->half_Tx = half * s->T.x;
+    s->half_Ty = half * s->T.y;
+    s->half_cx = half * vf_fma(-s->b_over_a, s->T.x, at->n.x * w->inverse_a);
+    s->half_cy = half * vf_fma(-s->b_over_a, s->T.y, at->n.y * w->inverse_a);
+    s->total = crv__lanes_measure(w->params, w->a, s->b, s->cos_tangent, s->sin_tangent);
+    const vm counts = vf_lt(vf_set(1e-7f), s->total);
+    s->inverse = vf_where(counts, vf_rcp(s->total));
+    s->density = vf_where(counts, scale * scale);
+    s->weight = vf_where(counts, scale * scale * s->total);
+}
+
+/* Slice k, and if `opposite` is not NULL the one opposite to it. */
+CRV__INLINE void crv__group_slice_at(const crv__group_pixels *at,
+                                     const crv__slice_view *w, int32_t k,
+                                     crv__group_slice *s, crv__group_slice *opposite)
 {
     const float *direction = at->frame->directions + 2 * k;
     const float ca = w->noise->cos_alpha, sa = w->noise->sin_alpha;
     const vf one = vf_set(1);
     const vf Dx = vf_set(direction[0] * ca - direction[1] * sa),
              Dy = vf_set(direction[0] * sa + direction[1] * ca);
-    crv__group_slice s;
     const vf DV = vf_fma(Dx, w->V.x, Dy * w->V.y), squared = one - DV * DV;
     const vf scale = vf_rsqrt(squared);
     const vf Tx = (Dx - DV * w->V.x) * scale, Ty = (Dy - DV * w->V.y) * scale;
-    s.T = (crv__v3){Tx, Ty, -DV * w->V.z * scale};
-    s.b = vf_fma(at->n.x, Tx, vf_fma(at->n.y, Ty, -at->n.z * DV * w->V.z * scale));
-    s.b_over_a = s.b * w->inverse_a;
-    const vf half = vf_set(0.5f);
-    s.half_Tx = half * Tx;
-    s.half_Ty = half * Ty;
-    s.half_cx = half * vf_fma(-s.b_over_a, Tx, at->n.x * w->inverse_a);
-    s.half_cy = half * vf_fma(-s.b_over_a, Ty, at->n.y * w->inverse_a);
-    const vf inverse = vf_rsqrt(vf_fma(w->a, w->a, s.b * s.b));
-    s.cos_tangent = -s.b * inverse;
-    s.sin_tangent = w->a * inverse;
-    s.total = crv__lanes_measure(w->params, w->a, s.b, s.cos_tangent, s.sin_tangent);
-    const vm counts = vf_lt(vf_set(1e-7f), s.total);
-    s.inverse = vf_where(counts, vf_rcp(s.total));
-    s.density = vf_where(counts, scale * scale);
-    s.weight = vf_where(counts, scale * scale * s.total);
-    return s;
+    s->T = (crv__v3){Tx, Ty, -DV * w->V.z * scale};
+    s->b = vf_fma(at->n.x, Tx, vf_fma(at->n.y, Ty, at->n.z * s->T.z));
+    const vf inverse = vf_rsqrt(vf_fma(w->a, w->a, s->b * s->b));
+    s->cos_tangent = -s->b * inverse;
+    s->sin_tangent = w->a * inverse;
+    if (opposite) {
+        opposite->T = (crv__v3){-s->T.x, -s->T.y, -s->T.z};
+        opposite->b = -s->b;
+        opposite->cos_tangent = -s->cos_tangent;
+        opposite->sin_tangent = s->sin_tangent;
+        crv__group_slice_finish(opposite, at, w, scale);
+    }
+    crv__group_slice_finish(s, at, w, scale);
 }
 
 /* What a share of the slice's measure is computed from. F being a (1 - cos^2) plus a
@@ -190,17 +204,21 @@ CRV__INLINE vf crv__group_slice_depth(const crv__group_pixels *at,
     if (layer > 0 || p->border == CRV_BORDER_BACKGROUND
         || place->shift[0] == CRV__SHIFT_OFF)
         return d;
-    const vf background = vf_set(at->di->background);
-    const vi u = at->x + vi_set(place->du), v = vi_set(at->y + place->dv);
-    const vm on = vm_and(vi_below(u, vi_set(p->width)), vi_below(v, vi_set(p->height)));
-    const vm off = vm_and(vm_not(on), vf_lt(at->depth, background));
-    if (!vm_any(off))
-        return d;
-    return vf_select(off, vf_min(crv__lanes_beyond(at->frame, u, v, off), background), d);
+    const crv__group_spot spot = crv__group_spot_at(at, place);
+    const vm off = vm_and(spot.off, vf_lt(at->depth, vf_set(at->di->background)));
+    return vm_any(off) ? vf_select(off, crv__group_beyond(at, &spot), d) : d;
 }
 
 /* Slices that are set up at once: one after the other they would wait for their roots. */
 enum { CRV__SLICES_AT_ONCE = 4 };
+
+/* The slice that is the i-th to be computed: if their number is even, those that are
+ * opposite follow one another. */
+CRV__INLINE int32_t crv__group_slice_number(const crv__group_pixels *at, int32_t i)
+{
+    const int32_t slices = at->di->slices;
+    return slices % 2 ? i : i / 2 + i % 2 * (slices / 2);
+}
 
 /* sum_of_slices(): accessibility from a group's slices, by the template's `shape` and
  * blocked_shares(); and the bent normal, if bent is not NULL. CRV__SLICE_SHAPE: for one
@@ -210,7 +228,7 @@ enum { CRV__SLICES_AT_ONCE = 4 };
                                  shape c, crv__v3 *bent)                                 \
     {                                                                                    \
         const crv__slice_view w = crv__slice_view_of(at, c.orthographic);                \
-        const int32_t slices = at->di->slices;                                           \
+        const int32_t slices = at->di->slices, pairs = slices % 2 == 0;                  \
         const vf one = vf_set(1);                                                        \
         vf blocked = vf_zero(), total = vf_zero();                                       \
         crv__lanes_sums sums = crv__lanes_no_sums();                                     \
@@ -221,8 +239,9 @@ enum { CRV__SLICES_AT_ONCE = 4 };
             crv__group_slice s[CRV__SLICES_AT_ONCE];                                     \
             crv__lanes_vectors vectors[CRV__SLICES_AT_ONCE];                             \
             vf shares[CRV__SLICES_AT_ONCE];                                              \
-            for (int32_t k = 0; k < count; k++)                                          \
-                s[k] = crv__group_slice_at(at, &w, first + k);                           \
+            for (int32_t k = 0; k < count; k += 1 + pairs)                               \
+                crv__group_slice_at(at, &w, crv__group_slice_number(at, first + k),      \
+                                    &s[k], pairs ? &s[k + 1] : NULL);                    \
             blocked_shares(at, list, &w, s, c, first, count, shares,                     \
                            bent ? vectors : NULL);                                       \
             for (int32_t k = 0; k < count; k++) {                                        \
