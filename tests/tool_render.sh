@@ -11,7 +11,7 @@ for file in ao.png lit.png plain.png; do
 done
 cmp -s lit.png plain.png && fail "ambient occlusion does not show in the lit picture"
 grep -q 'courtyard: [0-9]* triangles' stderr.txt || fail "no line about the model"
-grep -q '^bitmask 4x8, radius .*, edges15: ' stderr.txt || fail "no line about the method"
+grep -q '^bitmask 5x7, radius .*, edges15: ' stderr.txt || fail "no line about the method"
 grep -q '^wrote ao.png$' stderr.txt || fail "no line about the file"
 
 # --shade writes the same pictures as the other outputs do.

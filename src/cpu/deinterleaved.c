@@ -263,7 +263,7 @@ static void fill_cell(const crv__params *p, int32_t i, float share, float length
                       crv__sample *sample)
 {
     const float near = fminf(1, fmaxf(0.5f / length_px, spaced(p, (float)i)) / share);
-    sample->front = 1 - 0.25f * (1 - near);
+    sample->front = 1 - 0.3f * (1 - near);
     sample->far = fmaxf(1, spaced(p, (float)(i + 1)) / share);
 }
 

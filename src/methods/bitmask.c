@@ -26,11 +26,11 @@
  * layer ends the body in front of it, and is itself a sheet of half the thickness.
  *
  * A sample stands for its cell [t_lo, t_hi] of the spacing, or light would leak between
- * samples. Its front lies a quarter of the way to t_lo, moved parallel to the tangent
+ * samples. Its front lies three tenths of the way to t_lo, moved parallel to the tangent
  * plane; its back lies at t_hi. Both are clipped to the sphere of the radius.
  *
- *     xf = x (1 - (1 - t_lo/t)/4)    zf = min(z - (b/a)(xf - x), sqrt(R^2 - xf^2))
- *     xb = x t_hi/t                  zb = max(z - h, -sqrt(R^2 - xf^2))
+ *     xf = x (1 - 0.3 (1 - t_lo/t))    zf = min(z - (b/a)(xf - x), sqrt(R^2 - xf^2))
+ *     xb = x t_hi/t                    zb = max(z - h, -sqrt(R^2 - xf^2))
  *
  * Each newly set bit weighs W. The nearer of them lie at the front, at r; the farther at
  * the body's side, at x:  W(r - 0.7 (r - x) |new|/|bits|),  r = min(|(x, z)|, R).
@@ -106,7 +106,7 @@ static void add_body(sectors *to, const crv__params *p, const crv__slice_site *s
                      const crv__slice *s, const body *b, bool with_vectors)
 {
     const float R = p->radius;
-    const float front_x = b->x * (1 - 0.25f * (1 - b->texel->near));
+    const float front_x = b->x * (1 - 0.3f * (1 - b->texel->near));
     const float back_x = b->x * b->texel->far;
     const float end = sqrtf(fmaxf(0, R * R - front_x * front_x));
     const float front_z = fminf(b->z - s->b / site->a * (front_x - b->x), end);
@@ -283,7 +283,7 @@ const crv__method crv__method_bitmask = {
     .accessibility = accessibility,
     .estimate = estimate,
     .map = map,
-    .presets = {"directions=2 steps=8", "directions=4 steps=8", "directions=4 steps=16",
+    .presets = {"directions=3 steps=6", "directions=5 steps=7", "directions=6 steps=10",
                 "directions=16 steps=32",
                 "directions=2 steps=8 thickness_rule=constant falloff=none "
                 "border=background"}};

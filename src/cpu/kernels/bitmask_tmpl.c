@@ -38,7 +38,7 @@ CRV__INLINE void add_bodies(sectors *to, const crv__params *p,
                             bool with_vectors)
 {
     const vf one = vf_set(1), zero = vf_zero(), R = vf_set(p->radius);
-    const vf front_x = b->x * (one - vf_set(0.25f) * (one - texel->near));
+    const vf front_x = b->x * (one - vf_set(0.3f) * (one - texel->near));
     const vf back_x = b->x * texel->far;
     const vf end = vf_sqrt(vf_max(R * R - front_x * front_x, zero));
     const vf front_z = vf_min(b->z - s->b / site->a * (front_x - b->x), end);

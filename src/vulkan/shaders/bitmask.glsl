@@ -54,7 +54,7 @@ uint sectors_from(float sector)
 void add_body(inout Sectors to, SliceSite site, Slice s, SliceTexel texel, Body b)
 {
     const float R = params.radius;
-    const float front_x = b.x * (1 - 0.25 * (1 - texel.near)), back_x = b.x * texel.far;
+    const float front_x = b.x * (1 - 0.3 * (1 - texel.near)), back_x = b.x * texel.far;
     const float end = sqrt(max(0.0, R * R - front_x * front_x));
     const float front_z = min(b.z - s.b / site.a * (front_x - b.x), end);
     const float back_z = max(b.z - b.thickness, -end);
