@@ -50,8 +50,8 @@ CRV__INLINE vf least_rise(const crv__slice_view *w, const crv__group_slice *s,
         const vf squared = vf_set(2) * bound * s->sin_tangent * w->inverse_a;
         t = squared * vf_rsqrt_fair(squared);
     }
-    const vf whole = vf_fma(s->b_over_a, s->b_over_a, one);
-    return vf_set(0.998f) * t * whole * vf_rcp_rough(vf_fma(t, s->b_over_a, one));
+    const vf whole = vf_fma(s->minus_b_over_a, s->minus_b_over_a, one);
+    return vf_set(0.998f) * t * whole * vf_rcp_rough(vf_fma(-t, s->minus_b_over_a, one));
 }
 
 CRV__INLINE void add_groups(sectors *to, vf weight, vi bits)
@@ -149,8 +149,8 @@ CRV__INLINE void add_body(sectors *to, const crv__group_pixels *at, const crv__l
     const vf front_x = x * vf_set(sample->front), back_x = x * vf_set(sample->far);
     const vf rest = vf_max(vf_fma(-front_x, front_x, w->radius2), vf_set(1e-30f));
     const vf end = rest * vf_rsqrt_fair(rest);
-    const vf z = vf_fma(-s->b_over_a, x, r->height);
-    const vf front_z = vf_min(vf_fma(-s->b_over_a, front_x, r->height), end);
+    const vf z = vf_fma(s->minus_b_over_a, x, r->height);
+    const vf front_z = vf_min(vf_fma(s->minus_b_over_a, front_x, r->height), end);
     const vf back_z = vf_max(z - thickness, zero - end);
     const vf front_inverse = vf_rsqrt_fair(vf_fma(front_x, front_x, front_z * front_z));
     const vf back_inverse = vf_rsqrt_fair(vf_fma(back_x, back_x, back_z * back_z));
@@ -173,14 +173,15 @@ CRV__INLINE risen *collect(risen *to, sectors *so_far, const crv__group_pixels *
                            const crv__group_slice *s, vf rise, shape c, int32_t k,
                            int32_t first, int32_t last)
 {
-    const vf steep = vf_set(-16) - s->b_over_a;
+    const vf steep = s->minus_b_over_a - vf_set(16);
     vf start = so_far->start, last_climb = so_far->last;
     for (int32_t i = first; i < last; i++) {
         const crv__sample *sample = &list->samples[i];
         const crv__sample_place *place = &list->places[i];
         const vf d = crv__group_slice_depth(at, place, 0, c.border);
         vf x, height;
-        crv__group_slice_height(w, s, sample, d, c.orthographic, &x, &height);
+        crv__group_slice_point(w, s, w->half_nx, w->half_ny, sample, d, c.orthographic,
+                               &x, &height);
         const vf climb = vf_fma(steep, x, height); /* z - 16 x */
         start = vf_select(vf_lt(last_climb, climb), x, start);
         last_climb = climb;

@@ -75,12 +75,15 @@ CRV__INLINE vf blocked_share(const crv__group_pixels *at, const crv__list *list,
         crv__lanes_vector(w->params, w->a, s->b, s->cos_tangent, s->sin_tangent);
     const int32_t first = k * at->di->steps, last = first + list->counts[k];
     const crv__group_measure m = crv__group_measure_of(w, s, 1);
+    const vf half_x = vf_fma(s->minus_b_over_a, s->half_Tx, w->half_nx),
+             half_y = vf_fma(s->minus_b_over_a, s->half_Ty, w->half_ny);
     horizon h = {s->cos_tangent, one, zero, zero, all, {zero, zero}};
     for (int32_t i = first; i < last; i++) {
         for (int32_t layer = 0; layer < c.layers; layer++) {
             const vf d = crv__group_slice_depth(at, &list->places[i], layer, c.border);
             vf x, z;
-            crv__group_slice_point(w, s, &list->samples[i], d, c.orthographic, &x, &z);
+            crv__group_slice_point(w, s, half_x, half_y, &list->samples[i], d,
+                                   c.orthographic, &x, &z);
             add_sample(&h, w, s, &m, c, x, z, vectors);
         }
     }

@@ -6,10 +6,11 @@
  * units). With k = 1 - ds/d a sample at the step o of the image plane at unit depth is
  * v = o - k (ray + o). T is at right angles to the ray, so that on the slice
  *
- *     x = (1 - k) T.o     z = q + k (g - q)
- *     q = (n.o - b T.o)/a - e/d = c.o - e/d     g = |ray| (n.V)/a
+ *     x = (1 - k) T.o     z = h - x b/a     h = q + k (g - q)
+ *     q = n.o/a - e/d     g = |ray| (n.V)/a
  *
- * and orthographic, with k = d - ds, x = T.o and z = q + k g, q = c.o - e, g = (n.V)/a.
+ * h is the height over the tangent along V. Orthographic, with k = d - ds, x = T.o and
+ * h = q + k g, q = n.o/a - e, g = (n.V)/a.
  */
 #ifndef CRV_CPU_KERNELS_SLICE_GROUPS_H
 #define CRV_CPU_KERNELS_SLICE_GROUPS_H
@@ -29,9 +30,8 @@ typedef struct crv__slice_view {
 
 /* What does not change from sample to sample. */
 typedef struct crv__group_slice {
-    vf half_Tx, half_Ty, half_cx, half_cy;
-    crv__v3 T;
-    vf b, b_over_a, cos_tangent, sin_tangent, total, inverse;
+    vf half_Tx, half_Ty, Tz;
+    vf b, minus_b_over_a, cos_tangent, sin_tangent, total, inverse;
     vf density; /* w; 0 where the slice's measure is nothing */
     vf weight;  /* times the total */
 } crv__group_slice;
@@ -74,15 +74,10 @@ CRV__INLINE crv__slice_view crv__slice_view_of(const crv__group_pixels *at,
 
 /* What follows of a slice from its T, b and tangent; scale: 1 over the root that T was
  * divided by. */
-CRV__INLINE void crv__group_slice_finish(crv__group_slice *s, const crv__group_pixels *at,
-                                         const crv__slice_view *w, vf scale)
+CRV__INLINE void crv__group_slice_finish(crv__group_slice *s, const crv__slice_view *w,
+                                         vf scale)
 {
-    const vf half = vf_set(0.5f);
-    s->b_over_a = s->b * w->inverse_a;
-    s->half_Tx = half * s->T.x;
-    s->half_Ty = half * s->T.y;
-    s->half_cx = half * vf_fma(-s->b_over_a, s->T.x, at->n.x * w->inverse_a);
-    s->half_cy = half * vf_fma(-s->b_over_a, s->T.y, at->n.y * w->inverse_a);
+    s->minus_b_over_a = -s->b * w->inverse_a;
     s->total = crv__lanes_measure(w->params, w->a, s->b, s->cos_tangent, s->sin_tangent);
     const vm counts = vf_lt(vf_set(1e-7f), s->total);
     s->inverse = vf_where(counts, vf_rcp(s->total));
@@ -103,19 +98,23 @@ CRV__INLINE void crv__group_slice_at(const crv__group_pixels *at,
     const vf DV = vf_fma(Dx, w->V.x, Dy * w->V.y), squared = one - DV * DV;
     const vf scale = vf_rsqrt(squared);
     const vf Tx = (Dx - DV * w->V.x) * scale, Ty = (Dy - DV * w->V.y) * scale;
-    s->T = (crv__v3){Tx, Ty, -DV * w->V.z * scale};
-    s->b = vf_fma(at->n.x, Tx, vf_fma(at->n.y, Ty, at->n.z * s->T.z));
+    s->half_Tx = vf_set(0.5f) * Tx;
+    s->half_Ty = vf_set(0.5f) * Ty;
+    s->Tz = -DV * w->V.z * scale;
+    s->b = vf_fma(at->n.x, Tx, vf_fma(at->n.y, Ty, at->n.z * s->Tz));
     const vf inverse = vf_rsqrt(vf_fma(w->a, w->a, s->b * s->b));
     s->cos_tangent = -s->b * inverse;
     s->sin_tangent = w->a * inverse;
     if (opposite) {
-        opposite->T = (crv__v3){-s->T.x, -s->T.y, -s->T.z};
+        opposite->half_Tx = -s->half_Tx;
+        opposite->half_Ty = -s->half_Ty;
+        opposite->Tz = -s->Tz;
         opposite->b = -s->b;
         opposite->cos_tangent = -s->cos_tangent;
         opposite->sin_tangent = s->sin_tangent;
-        crv__group_slice_finish(opposite, at, w, scale);
+        crv__group_slice_finish(opposite, w, scale);
     }
-    crv__group_slice_finish(s, at, w, scale);
+    crv__group_slice_finish(s, w, scale);
 }
 
 /* What a share of the slice's measure is computed from. F being a (1 - cos^2) plus a
@@ -150,35 +149,19 @@ CRV__INLINE vf crv__group_share(const crv__group_measure *m, vf cosine, vf sine)
     return vf_fma(-cosine, vf_fma(m->a, cosine, Q), m->whole);
 }
 
-/* The point of the slice at a sample with depth ds. */
+/* The point of the slice at a sample with depth ds: its x; and its height over the tangent
+ * along V for half of n/a, or z for half of n/a - T b/a. */
 CRV__INLINE void crv__group_slice_point(const crv__slice_view *w,
-                                        const crv__group_slice *s,
+                                        const crv__group_slice *s, vf half_x, vf half_y,
                                         const crv__sample *sample, vf depth,
-                                        int orthographic, vf *x, vf *z)
+                                        int orthographic, vf *x, vf *height)
 {
     const vf x2 = vf_set(sample->x2), y2 = vf_set(sample->y2);
     const vf k = vf_fma(-depth, w->scale, w->origin);
     const vf m = vf_fma(x2, s->half_Tx, y2 * s->half_Ty);
-    const vf q = vf_fma(x2, s->half_cx, vf_fma(y2, s->half_cy, w->minus_lift));
+    const vf q = vf_fma(x2, half_x, vf_fma(y2, half_y, w->minus_lift));
     *x = orthographic ? m : vf_fma(-k, m, m);
-    *z = orthographic ? vf_fma(k, w->g, q) : vf_fma(k, w->g - q, q);
-}
-
-/* Its x, and its height over the tangent along V, z + x b/a, for which T is not needed:
- *
- *     height = Q + k (g - Q),   Q = n.o/a - e/d
- */
-CRV__INLINE void crv__group_slice_height(const crv__slice_view *w,
-                                         const crv__group_slice *s,
-                                         const crv__sample *sample, vf depth,
-                                         int orthographic, vf *x, vf *height)
-{
-    const vf x2 = vf_set(sample->x2), y2 = vf_set(sample->y2);
-    const vf k = vf_fma(-depth, w->scale, w->origin);
-    const vf m = vf_fma(x2, s->half_Tx, y2 * s->half_Ty);
-    const vf Q = vf_fma(x2, w->half_nx, vf_fma(y2, w->half_ny, w->minus_lift));
-    *x = orthographic ? m : vf_fma(-k, m, m);
-    *height = orthographic ? vf_fma(k, w->g, Q) : vf_fma(k, w->g - Q, Q);
+    *height = orthographic ? vf_fma(k, w->g, q) : vf_fma(k, w->g - q, q);
 }
 
 /* Whether all lanes have their sample on the picture. */
@@ -247,9 +230,10 @@ CRV__INLINE int32_t crv__group_slice_number(const crv__group_pixels *at, int32_t
             for (int32_t k = 0; k < count; k++) {                                        \
                 blocked = vf_fma(s[k].weight, shares[k], blocked);                       \
                 total = total + s[k].weight;                                             \
+                const crv__v3 T = {s[k].half_Tx + s[k].half_Tx,                          \
+                                   s[k].half_Ty + s[k].half_Ty, s[k].Tz};                \
                 if (bent)                                                                \
-                    crv__lanes_add_vectors(&sums, s[k].T, w.V, s[k].density,             \
-                                           &vectors[k]);                                 \
+                    crv__lanes_add_vectors(&sums, T, w.V, s[k].density, &vectors[k]);    \
             }                                                                            \
         }                                                                                \
         const vf A = vf_select(vf_lt(vf_zero(), total), one - blocked / total, one);     \
