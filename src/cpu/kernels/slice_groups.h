@@ -149,8 +149,8 @@ CRV__INLINE vf crv__group_share(const crv__group_measure *m, vf cosine, vf sine)
     return vf_fma(-cosine, vf_fma(m->a, cosine, Q), m->whole);
 }
 
-/* The point of the slice at a sample with depth ds: its x; and its height over the tangent
- * along V for half of n/a, or z for half of n/a - T b/a. */
+/* The point of the slice at a sample with depth ds: its x; and its height over the
+ * tangent along V for half of n/a, or z for half of n/a - T b/a. */
 CRV__INLINE void crv__group_slice_point(const crv__slice_view *w,
                                         const crv__group_slice *s, vf half_x, vf half_y,
                                         const crv__sample *sample, vf depth,
@@ -193,7 +193,7 @@ CRV__INLINE vf crv__group_slice_depth(const crv__group_pixels *at,
 }
 
 /* Slices that are set up at once: one after the other they would wait for their roots. */
-enum { CRV__SLICES_AT_ONCE = 4 };
+enum { CRV__SLICES_AT_ONCE = 6 };
 
 /* The slice that is the i-th to be computed: if their number is even, those that are
  * opposite follow one another. */
