@@ -12,6 +12,9 @@ typedef struct crv__work {
     const crv__frame *frame;
     bool filter_only; /* the estimate is there already */
     bool with_bent;   /* bent normals are wanted, and the plan has their planes */
+    /* The host's image that the filtered accessibility may be written to, instead of a
+     * plane; NULL: only when the run has come to its end */
+    const crv_image *target;
 } crv__work;
 
 /* A plan's two pictures cover the same rectangle, crv__setup_rectangle(). */

@@ -142,12 +142,17 @@ static crv_status finish(crv_plan *plan, const crv__frame *frame, bool filter_on
                             .state = plan->state,
                             .frame = frame,
                             .filter_only = filter_only,
-                            .with_bent = result->bent_normal.data};
+                            .with_bent = result->bent_normal.data,
+                            .target =
+                                result->accessibility.data && !plan->context->progress.fn
+                                    ? &result->accessibility
+                                    : NULL};
     copy_job job = {.plan = plan, .frame = frame, .to = result};
     crv_status status = plan->context->backend->run(&work, plan->pictures, &job.from);
     if (status)
         return status;
-    if (result->accessibility.data)
+    if (result->accessibility.data
+        && result->accessibility.data != job.from.accessibility.data)
         crv__run_rows(plan->context, result->accessibility.height, copy_row, &job);
     if (result->bent_normal.data)
         crv__run_rows(plan->context, result->bent_normal.height, copy_bent_row, &job);

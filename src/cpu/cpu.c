@@ -509,6 +509,24 @@ static bool plan_update(const crv__setup *setup, void *data)
     return true;
 }
 
+/* Makes the plane the host's image, if kernels can write that; or it is copied to. All
+ * planes of a picture have one pitch. */
+static void take_target(const crv__work *work, crv__plane *plane)
+{
+    const crv_gbuffer_desc *d = &work->setup->desc;
+    const crv_image *to = work->target;
+    const ptrdiff_t size = sizeof(float);
+    if (to && !work->with_bent && to->pixel_stride == size && to->row_stride % size == 0
+        && to->row_stride >= to->width * size
+        && to->row_stride / size <= INT32_MAX / d->height)
+        *plane = (crv__plane){.data = to->data,
+                              .pitch = to->row_stride / size,
+                              .x0 = d->guard_left,
+                              .y0 = d->guard_top,
+                              .width = to->width,
+                              .height = to->height};
+}
+
 static crv_status run(const crv__work *given, const crv__picture given_pictures[2],
                       crv__picture *result)
 {
@@ -526,8 +544,10 @@ static crv_status run(const crv__work *given, const crv__picture given_pictures[
     bool goes_on = work.filter_only || estimate(&work, &pictures[0]);
     if (!goes_on)
         return CRV_ERROR_STOPPED;
-    if (kernel)
+    if (kernel) {
+        take_target(&work, &pictures[1].accessibility);
         goes_on = filter_with(&work, kernel, pictures);
+    }
     for (int32_t pass = 0; pass < passes && goes_on; pass++)
         goes_on =
             filter_pass(&work, pass, &pictures[pass % 2], &pictures[(pass + 1) % 2]);
