@@ -29,7 +29,7 @@ static const float FAR_WEIGHT = 1.0f / 3, FAR_EVENNESS = 0.5f;
 typedef struct row {
     _Alignas(64) float depth[PITCH];  /* infinite: no tap */
     float value[PITCH];               /* accessibility; 0: no tap */
-    float across[PITCH], down[PITCH]; /* slopes */
+    float across[PITCH], down[PITCH]; /* slopes; those down MARGIN further on, aligned */
     float copies[3][PITCH];           /* of normals that leave the planes */
     const float *normal[3];
 } row;
@@ -51,7 +51,7 @@ typedef struct line {
 /* What the rows down leave for those below, as rings of as many rows as lie between:
  * edges, weights, and values before each level. */
 typedef struct column {
-    _Alignas(64) float edge1[WIDTH], edge2[2][WIDTH], edge4[4][WIDTH];
+    _Alignas(64) float edge1[2][WIDTH], edge2[3][WIDTH], edge4[5][WIDTH];
     float before2[2][WIDTH], after2[2][WIDTH], before4[6][WIDTH], after4[6][WIDTH];
     float across[PLANES][2][WIDTH], first[PLANES][4][WIDTH], second[PLANES][8][WIDTH];
 } column;
@@ -80,9 +80,9 @@ CRV__INLINE const float *line_of(const crv__plane *plane, int32_t x, int32_t y,
 CRV__INLINE vf smaller_slope(vf before, vf d, vf after)
 {
     const vf backward = d - before, forward = after - d;
-    const vf slope =
-        vf_select(vf_lt(vf_abs(forward), vf_abs(backward)), forward, backward);
-    return vf_where(vf_lt(vf_abs(slope), vf_set(CRV_STEEPEST_SLOPE)), slope);
+    const vf least = vf_least_abs(backward, forward);
+    const vf slope = vf_select(vf_lt(least, vf_abs(backward)), forward, backward);
+    return vf_where(vf_lt(least, vf_set(CRV_STEEPEST_SLOPE)), slope);
 }
 
 CRV__NOINLINE void take_row(const crv__frame *f, const crv__plane *input, int32_t x,
@@ -96,14 +96,11 @@ CRV__NOINLINE void take_row(const crv__frame *f, const crv__plane *input, int32_
                 *value = line_of(input, x, y, NAN, room[3]);
     for (int32_t i = 0; i < 3; i++)
         r->normal[i] = line_of(&f->normal[i], x, y, 0, r->copies[i]);
+    const bool with_slopes = f->params->filter_slope;
     for (int32_t i = LEFT - MARGIN; i < LEFT + width + MARGIN; i += CRV__LANES) {
         const vf d = vf_load(depth + i), v = vf_load(value + i);
-        for (int32_t k = 0; k < 3; k++)
-            __builtin_prefetch(r->normal[k] + 2 * f->normal[k].pitch + i);
-        __builtin_prefetch(below + 2 * plane->pitch + i);
-        __builtin_prefetch(value + 2 * input->pitch + i);
         vf across = vf_zero(), down = vf_zero();
-        if (f->params->filter_slope) {
+        if (with_slopes) {
             across = smaller_slope(vf_load(depth + i - 1), d, vf_load(depth + i + 1));
             down = smaller_slope(vf_load(above + i), d, vf_load(below + i));
         }
@@ -111,7 +108,7 @@ CRV__NOINLINE void take_row(const crv__frame *f, const crv__plane *input, int32_
         vf_store(r->depth + i, vf_select(is_tap, d, vf_set(INFINITY)));
         vf_store(r->value + i, vf_where(is_tap, v));
         vf_store(r->across + i, across);
-        vf_store(r->down + i, down);
+        vf_store(r->down + MARGIN + i, down);
     }
 }
 
@@ -124,11 +121,6 @@ CRV__NOINLINE void take_bent(const crv__plane *input, const row *r, int32_t x, i
     for (int32_t i = LEFT - MARGIN; i < LEFT + width + MARGIN; i += CRV__LANES)
         vf_store(out + i, vf_where(vf_lt(vf_load(r->depth + i), vf_set(INFINITY)),
                                    vf_load(values + i)));
-}
-
-CRV__INLINE int is_some_tap(vf depth)
-{
-    return vm_any(vf_lt(depth, vf_set(INFINITY)));
 }
 
 /* What edges are made with. Loops are given it by value: what they store may be anything
@@ -200,7 +192,7 @@ CRV__INLINE vf edge(const limits *l, const place *a, const place *b, int32_t apa
 
 /* A pixel's weights at all levels, from the edges before and after it; `before` and
  * `after` of the first are taps if their depth is finite. Sums are in units that save
- * multiplications, and are all divided by at once: they lie between 0.75 and 8. */
+ * multiplications, and divide at once: they lie between 0.75 and 6. */
 CRV__INLINE void weigh(const sides edges[3], vf before, vf after, sides out[3])
 {
     const vf infinity = vf_set(INFINITY);
@@ -225,7 +217,7 @@ CRV__INLINE void weigh(const sides edges[3], vf before, vf after, sides out[3])
              after4 = vf_fma(rest, edges[2].after, both4);
     const vf sum4 = vf_fma(vf_set(1 / FAR_WEIGHT) * enough, enough, before4 + after4);
 
-    const vf all = vf_rcp(found * sum4), near = all * sum4;
+    const vf all = vf_set(1) / (found * sum4), near = all * sum4;
     const vf part1 = near * sum2, part2 = near * sum1, part4 = all * found;
     out[0] = (sides){before1 * part1, after1 * part1};
     out[1] = (sides){before2 * part2, after2 * part2};
@@ -244,14 +236,9 @@ CRV__NOINLINE void edges_across(const crv__params *p, const row *r, int32_t widt
     const view v = view_of(r, r->across, 0);
     for (int32_t i = LEFT - MARGIN; i < LEFT + width + MARGIN; i += CRV__LANES) {
         const place own = scaled_place_at(&v, i, &l);
-        const int some = is_some_tap(own.depth);
         for (int32_t k = 0; k < 3; k++) {
-            vf e = vf_zero();
-            if (some) {
-                const place other = place_at(&v, i + (1 << k));
-                e = edge(&l, &own, &other, 1 << k);
-            }
-            vf_store(out->edges[k] + i, e);
+            const place other = place_at(&v, i + (1 << k));
+            vf_store(out->edges[k] + i, edge(&l, &own, &other, 1 << k));
         }
     }
 }
@@ -267,12 +254,10 @@ CRV__INLINE void levels_across(const row *r, int32_t width, int32_t planes, line
 {
     const int32_t from = LEFT - MARGIN, to = LEFT + width + MARGIN;
     for (int32_t i = from; i < to; i += CRV__LANES) {
-        const vf zero = vf_zero();
-        sides e[3], s[3] = {{zero, zero}, {zero, zero}, {zero, zero}};
+        sides e[3], s[3];
         for (int32_t k = 0; k < 3; k++)
             e[k] = (sides){vf_load(l->edges[k] + i - (1 << k)), vf_load(l->edges[k] + i)};
-        if (is_some_tap(vf_load(r->depth + i)))
-            weigh(e, vf_load(r->depth + i - 1), vf_load(r->depth + i + 1), s);
+        weigh(e, vf_load(r->depth + i - 1), vf_load(r->depth + i + 1), s);
         for (int32_t k = 0; k < 2; k++) {
             vf_store(l->before[k] + i, s[k + 1].before);
             vf_store(l->after[k] + i, s[k + 1].after);
@@ -305,24 +290,32 @@ CRV__INLINE vf exchanged_value(float *at, vf value)
     return old;
 }
 
-/* Of the row before the k-th: edges to those below, and weights. */
-CRV__INLINE void weigh_down(const limits *l, const view at[5], int32_t i, int32_t k,
-                            column *c, sides out[3])
+/* The edges of the row before the k-th to those below. */
+CRV__NOINLINE void edges_down(const crv__params *p, const row *rows, int32_t k,
+                              int32_t width, column *c)
 {
-    const vf zero = vf_zero();
-    vf e[3] = {zero, zero, zero};
-    out[0] = out[1] = out[2] = (sides){zero, zero};
-    const place a = scaled_place_at(&at[1], i, l);
-    const int some = is_some_tap(a.depth);
-    for (int32_t n = 0; n < 3 && some; n++) {
-        const place b = place_at(&at[n + 2], i);
-        e[n] = edge(l, &a, &b, 1 << n);
+    const limits l = limits_of(p);
+    view at[4]; /* the row, and 1, 2 and 4 below */
+    for (int32_t n = 0; n < 4; n++) {
+        const row *r = &rows[(k + ROWS - 1 + (1 << n) / 2) % ROWS];
+        at[n] = view_of(r, r->down + MARGIN, LEFT);
     }
-    const sides edges[3] = {{exchanged_value(c->edge1 + i, e[0]), e[0]},
-                            {exchanged_value(c->edge2[k % 2] + i, e[1]), e[1]},
-                            {exchanged_value(c->edge4[k % 4] + i, e[2]), e[2]}};
-    if (some)
-        weigh(edges, vf_load(at[0].depth + i), vf_load(at[2].depth + i), out);
+    float *out[3] = {c->edge1[k % 2], c->edge2[k % 3], c->edge4[k % 5]};
+    for (int32_t i = 0; i < width; i += CRV__LANES) {
+        const place own = scaled_place_at(&at[0], i, &l);
+        for (int32_t n = 0; n < 3; n++) {
+            const place other = place_at(&at[n + 1], i);
+            vf_store(out[n] + i, edge(&l, &own, &other, 1 << n));
+        }
+    }
+}
+
+/* The edges before and after a pixel, at each level. */
+CRV__INLINE void edges_at(const column *c, int32_t k, int32_t i, sides out[3])
+{
+    out[0] = (sides){vf_load(c->edge1[(k + 1) % 2] + i), vf_load(c->edge1[k % 2] + i)};
+    out[1] = (sides){vf_load(c->edge2[(k + 1) % 3] + i), vf_load(c->edge2[k % 3] + i)};
+    out[2] = (sides){vf_load(c->edge4[(k + 1) % 5] + i), vf_load(c->edge4[k % 5] + i)};
 }
 
 /* Where a row of results goes. */
@@ -348,22 +341,18 @@ CRV__INLINE void store_result(const output *out, int32_t p, int32_t i, vf result
 /* The last level across of the k-th row, and those down that can be done then: the first
  * of the row before it, the second 2 before that, and the third 4 before that. Its
  * results are stored unless `out` is NULL. */
-CRV__INLINE void levels_down(const crv__params *p, const row *rows, const line *l,
-                             int32_t k, int32_t width, int32_t planes, column *c,
-                             const output *out)
+CRV__INLINE void levels_down(const row *rows, const line *l, int32_t k, int32_t width,
+                             int32_t planes, column *c, const output *out)
 {
-    const limits own = limits_of(p);
-    view at[5]; /* the row above that before the k-th, itself, and 1, 2 and 4 below */
-    static const int32_t PLACE[5] = {-2, -1, 0, 1, 3};
-    for (int32_t n = 0; n < 5; n++) {
-        const row *r = &rows[(k + ROWS + PLACE[n]) % ROWS];
-        at[n] = view_of(r, r->down, LEFT);
-    }
+    /* The depth above and below the row before the k-th. */
+    const float *above = rows[(k + ROWS - 2) % ROWS].depth + LEFT,
+                *below = rows[k % ROWS].depth + LEFT;
     for (int32_t i = 0; i < width; i += CRV__LANES) {
         const sides across = {vf_load(l->before[1] + LEFT + i),
                               vf_load(l->after[1] + LEFT + i)};
-        sides s[3];
-        weigh_down(&own, at, i, k, c, s);
+        sides e[3], s[3];
+        edges_at(c, k, i, e);
+        weigh(e, vf_load(above + i), vf_load(below + i), s);
         s[1] = exchanged(c->before2[k % 2] + i, c->after2[k % 2] + i, s[1]);
         s[2] = exchanged(c->before4[k % 6] + i, c->after4[k % 6] + i, s[2]);
         for (int32_t n = 0; n < planes; n++) {
@@ -382,34 +371,58 @@ CRV__INLINE void levels_down(const crv__params *p, const row *rows, const line *
     }
 }
 
-/* Fills a tile without surfaces and returns true; else false. */
-CRV__INLINE bool is_background(const crv__frame *f, const crv__plane *const out[],
-                               int32_t planes, crv__tile tile)
+/* A row of results. Those written soon are asked for: rows of a tile are too short to be
+ * foreseen. */
+CRV__INLINE float *output_row(const crv__plane *out, int32_t x, int32_t y, int32_t width)
 {
+    enum { ROWS_AHEAD = 2, CACHE_LINE = 16 };
+    float *to = crv__plane_at(out, x, y);
+    for (int32_t i = 0; i < width; i += CACHE_LINE)
+        __builtin_prefetch(to + ROWS_AHEAD * out->pitch + i, 1);
+    return to;
+}
+
+/* The part of a tile, in whole vectors, that holds its surfaces; none: it is empty. */
+CRV__INLINE crv__tile surfaces_of(const crv__frame *f, crv__tile tile)
+{
+    crv__tile part = {tile.x1, tile.x0, tile.y1, tile.y0};
     for (int32_t y = tile.y0; y < tile.y1; y++)
         for (int32_t x = tile.x0; x < tile.x1; x += CRV__LANES) {
-            const int32_t count = tile.x1 - x;
+            const int32_t count = tile.x1 - x < CRV__LANES ? tile.x1 - x : CRV__LANES;
             const vf depth = vf_load_n(crv__plane_at(&f->depth[0], x, y), count);
-            if (vm_any(vm_and(vm_first(count), vf_lt(depth, vf_set(INFINITY)))))
-                return false;
+            if (!vm_any(vm_and(vm_first(count), vf_lt(depth, vf_set(INFINITY)))))
+                continue;
+            part.x0 = x < part.x0 ? x : part.x0;
+            part.x1 = x + count > part.x1 ? x + count : part.x1;
+            part.y0 = y < part.y0 ? y : part.y0;
+            part.y1 = y + 1;
         }
+    return part;
+}
+
+CRV__INLINE void fill_background(const crv__plane *const out[], int32_t planes,
+                                 crv__tile tile)
+{
     for (int32_t p = 0; p < planes; p++)
         for (int32_t y = tile.y0; y < tile.y1; y++)
             for (int32_t x = tile.x0; x < tile.x1; x += CRV__LANES)
                 vf_store_n(crv__plane_at(out[p], x, y), vf_set(p == 0 ? 1 : 0),
                            tile.x1 - x);
-    return true;
 }
 
 CRV__INLINE void filter_tile(const crv__frame *f, const crv__plane *const input[],
                              const crv__plane *const out[], int32_t planes,
-                             crv__tile tile)
+                             crv__tile whole_tile)
 {
-    if (is_background(f, out, planes, tile))
-        return;
+    const crv__tile tile = surfaces_of(f, whole_tile);
     const int32_t width = tile.x1 - tile.x0, rows = tile.y1 - tile.y0 + 2 * RADIUS;
     const int32_t whole = (width + CRV__LANES - 1) / CRV__LANES * CRV__LANES;
     const int32_t x = tile.x0, top = tile.y0 - RADIUS;
+    if (width < whole_tile.x1 - whole_tile.x0
+        || tile.y1 - tile.y0 < whole_tile.y1 - whole_tile.y0)
+        fill_background(out, planes, whole_tile);
+    if (width <= 0)
+        return;
     row window[ROWS] = {0};
     line l = {0};
     column c = {0};
@@ -424,9 +437,10 @@ CRV__INLINE void filter_tile(const crv__frame *f, const crv__plane *const input[
         for (int32_t p = 1; p < planes; p++)
             take_bent(input[p], r, x, top + k, whole, l.bent[p - 1]);
         edges_across(f->params, r, whole, &l);
+        edges_down(f->params, window, k, whole, &c);
         levels_across(r, whole, planes, &l);
         if (k < 2 * RADIUS) {
-            levels_down(f->params, window, &l, k, whole, planes, &c, NULL);
+            levels_down(window, &l, k, whole, planes, &c, NULL);
             continue;
         }
         const int32_t y = top + k - RADIUS;
@@ -434,8 +448,8 @@ CRV__INLINE void filter_tile(const crv__frame *f, const crv__plane *const input[
                      .depth = crv__plane_at(&f->depth[0], x, y),
                      .width = width};
         for (int32_t p = 0; p < planes; p++)
-            to.to[p] = crv__plane_at(out[p], x, y);
-        levels_down(f->params, window, &l, k, whole, planes, &c, &to);
+            to.to[p] = output_row(out[p], x, y, whole);
+        levels_down(window, &l, k, whole, planes, &c, &to);
     }
 }
 
