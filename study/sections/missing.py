@@ -13,6 +13,7 @@ from . import Step
 
 SCALE = 0.25  # the error that gets the darkest colours
 TWO_LAYERS = Buffers(2, "surfaces")
+FOUR_LAYERS, FOUR_SOLID = Buffers(4, "surfaces"), Buffers(4, "solid")
 
 # What is measured, and with what its method is taken to have converged: more of what its
 # error hangs on, without a filter.
@@ -27,6 +28,13 @@ SUBJECTS: dict[str, tuple[str, dict[str, int]]] = {
 # Numbers of others, measured elsewhere: mean RMSE over six views at 1280x720, of the best of
 # the widely used GPU implementations (32 to 54 samples, denoised).
 PUBLISHED = [["cosine, none", "0.104"], ["uniform, linear", "0.088"]]
+
+# Of the method that errs least: what more samples and more layers would gain.
+BEST = "bitmask"
+BOUNDS = {"some": ("64 samples", ONE_LAYER), "some_two": ("64 samples, two layers", TWO_LAYERS),
+          "converged": ("Converged", ONE_LAYER), "converged_two": ("Two layers", TWO_LAYERS),
+          "converged_four": ("Four", FOUR_LAYERS),
+          "converged_solid": ("Four, fronts and backs", FOUR_SOLID)}
 
 PARTS = {"converged": "Converged, no filter", "missing_data": "Missing data",
          "estimator": "Estimator", "sampling": "Sampling",
@@ -46,10 +54,37 @@ class Row:
 def steps(s: Study) -> list[Step]:
     rows: list[Row] = []
     figures: list[dict[str, Any]] = []
+    bounds: dict[str, dict[str, float]] = {}
     found = [Step(f"missing data: {v.name}, {m}", 8 if v == s.main else 2,
                   lambda v=v, m=m: measure(s, v, m, rows, figures))
              for v in s.views for m in SUBJECTS if m in s.registry.methods]
-    return found + [Step("missing data: tables", 0, lambda: write(s, rows, figures))]
+    found += [Step(f"missing data: {v.name}, layers", 4,
+                   lambda v=v: bounds.update({v.name: bound(s, v)}))
+              for v in (s.views if BEST in s.registry.methods else [])
+              if v == s.main or not s.is_quick]
+    return found + [Step("missing data: tables", 0, lambda: write(s, rows, figures, bounds))]
+
+
+def bound(s: Study, view: View) -> dict[str, float]:
+    """RMSE of BOUNDS."""
+    falloff, much = SUBJECTS[BEST]
+    some = s.options(BEST, directions=8, steps=8, falloff=falloff)
+    converged = some.set(**much, filter="none")
+    truth = s.truth(view, some.target)
+    return {key: s.rmse(view, s.picture(view, some if key.startswith("some") else converged,
+                                        buffers), truth)
+            for key, (_, buffers) in BOUNDS.items()}
+
+
+def write_bounds(s: Study, bounds: dict[str, dict[str, float]]) -> None:
+    means = {key: sum(b[key] for b in bounds.values()) / len(bounds) for key in BOUNDS}
+    rows = bounds | {"mean": means}
+    s.page.table(f"`{BEST}` without falloff, cosine weighting, RMSE against the whole scene: 8x8 "
+                 "with the default filter, then without noise and filter. Backs tell the rule "
+                 "what it guesses otherwise, where things have a back.",
+                 ["View", *(title for title, _ in BOUNDS.values())],
+                 [[name, *(f"{row[key]:.4f}" for key in BOUNDS)] for name, row in rows.items()])
+    s.page.results["missing_bounds"] = [{"view": name} | row for name, row in rows.items()]
 
 
 def measure(s: Study, view: View, method: str, rows: list[Row],
@@ -87,7 +122,8 @@ def take_apart(s: Study, row: Row, converged: dict[str, int]) -> dict[str, float
             "blur": s.rmse(view, filtered, limit)}
 
 
-def write(s: Study, rows: list[Row], figures: list[dict[str, Any]]) -> None:
+def write(s: Study, rows: list[Row], figures: list[dict[str, Any]],
+          bounds: dict[str, dict[str, float]]) -> None:
     page = s.page
     page.heading(2, "missing", "What the errors are made of")
     page.text("`gtao`, `bitmask`, `hsao`, `raymarch` and `containment` without falloff (cosine "
@@ -118,6 +154,8 @@ def write(s: Study, rows: list[Row], figures: list[dict[str, Any]]) -> None:
     for row in rows:
         if row.parts and row.view == s.main:
             page.text(sentence(row, row.parts))
+    if bounds:
+        write_bounds(s, bounds)
     page.table("Published implementations, measured elsewhere: the mean RMSE over six views at "
                "1280x720 of the best of the widely used GPU implementations, with 32 to 54 "
                "samples and their denoiser, against full-scene ray tracing. Not measured here, "

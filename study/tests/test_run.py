@@ -100,6 +100,14 @@ def test_closed_forms_are_reached(report):
         assert rows[-1]["rms"] < 0.032 and abs(rows[-1]["mean"]) < 0.01
 
 
+def test_layers_change_nothing_where_nothing_is_hidden(report):
+    """Behind the two faces of a corner there is nothing, and more samples come nearer."""
+    corner, mean = report["missing_bounds"]
+    assert corner == mean | {"view": "corner"} and mean["view"] == "mean"
+    assert corner["some"] == corner["some_two"] > corner["converged"]
+    assert len({v for k, v in corner.items() if k.startswith("converged")}) == 1
+
+
 def test_parts_of_the_error(report):
     """Whatever the steps are, the triangle of errors cannot be broken: the converged error is
     at most the sum of what the data lack and what the estimator adds."""
