@@ -6,6 +6,8 @@
  */
 #include "cpu/deinterleaved.h"
 
+#include "cpu/border.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -20,7 +22,7 @@ enum {
 
 /* Numbers of things. */
 typedef struct sizes {
-    size_t depths, samples, counts, lists;
+    size_t depths, samples, counts, lists, borders;
 } sizes;
 
 struct crv__deinterleaved_state {
@@ -69,14 +71,15 @@ static bool measure(crv__deinterleaved_state *s, const crv__setup *setup)
     s->needed = (sizes){.depths = (size_t)di->layer_pitch * (size_t)(d->layers + has_map),
                         .samples = lists * (size_t)(di->slices * di->steps),
                         .counts = lists * (size_t)di->slices,
-                        .lists = lists};
+                        .lists = lists,
+                        .borders = s->method->jittered ? crv__border_size(di) : 0};
 
     const double pixels = (double)d->width * d->height;
     const double planes = 4.0 * (d->layers + has_map) + 12 + 4 + (setup->filter ? 4 : 0);
     const double table =
         (double)s->needed.samples * (sizeof(crv__sample) + sizeof(crv__sample_place));
-    const double left =
-        (BYTES_A_PIXEL - planes) * pixels - 4.0 * (double)s->needed.depths;
+    const double left = (BYTES_A_PIXEL - planes) * pixels
+                        - 4.0 * ((double)s->needed.depths + (double)s->needed.borders);
     return di->slices * di->steps <= CRV__MOST_SAMPLES && d->layers <= MOST_LAYERS
            && s->needed.depths < INT32_MAX
            && (table <= left || table <= TABLES_WHATEVER_THE_SIZE);
@@ -127,7 +130,10 @@ static crv_status allocate(crv__deinterleaved_state *s, const crv_allocator *all
     di->places = crv__allocate(allocator, n.samples, sizeof *di->places);
     di->counts = crv__allocate(allocator, n.counts, sizeof *di->counts);
     di->footprints = crv__allocate(allocator, n.lists, sizeof *di->footprints);
-    return di->depth && di->samples && di->places && di->counts && di->footprints
+    if (n.borders > 0)
+        di->border = crv__allocate(allocator, n.borders, sizeof(float));
+    return (di->border || !n.borders) && di->depth && di->samples && di->places
+                   && di->counts && di->footprints
                ? CRV_OK
                : CRV_ERROR_OUT_OF_MEMORY;
 }
@@ -165,6 +171,7 @@ void crv__deinterleaved_destroy(const crv__setup *setup, crv__deinterleaved_stat
     crv__release(allocator, di->places, n.samples, sizeof *di->places);
     crv__release(allocator, di->counts, n.counts, sizeof *di->counts);
     crv__release(allocator, di->footprints, n.lists, sizeof *di->footprints);
+    crv__release(allocator, di->border, n.borders, sizeof(float));
     crv__release(allocator, s, 1, sizeof *s);
 }
 
@@ -175,7 +182,8 @@ bool crv__deinterleaved_update(const crv__setup *setup, crv__deinterleaved_state
         return !s;
     const sizes n = next.needed;
     if (!s || n.depths > s->memory.depths || n.samples > s->memory.samples
-        || n.counts > s->memory.counts || n.lists > s->memory.lists)
+        || n.counts > s->memory.counts || n.lists > s->memory.lists
+        || n.borders > s->memory.borders)
         return false;
     *s = next;
     return true;
@@ -379,6 +387,8 @@ const crv__deinterleaved *crv__deinterleaved_prepare(crv__deinterleaved_state *s
                                       : p->max_radius_px;
     s->di.extends = s->method->jittered && p->border != CRV_BORDER_BACKGROUND;
     s->di.background = p->orthographic ? 1e18f : 1024 * p->radius * p->fy;
+    if (s->di.extends)
+        crv__border_fill(&s->di, frame);
     crv__run_parallel(setup->context, (uint32_t)(p->height + 15) / 16, deinterleave_rows,
                       &job);
     return &s->di;

@@ -37,73 +37,71 @@ CRV__INLINE crv__group_spot crv__group_spot_at(const crv__group_pixels *at,
     return spot;
 }
 
-/* The texels of row y nearest to the lanes' samples. The plane's copy by phases is `skip`
+/* The column in a phase's plane that holds the first lane's, none beyond the padding. */
+CRV__INLINE int32_t crv__group_spot_column(const crv__deinterleaved *di,
+                                           const crv__group_spot *spot, int32_t *phase)
+{
+    const int32_t column = spot->left + di->left;
+    *phase = column & (CRV__PHASES - 1);
+    const int32_t m = (column - *phase) / CRV__PHASES;
+    return m < -CRV__ROW_PADDING ? -CRV__ROW_PADDING : m > di->columns ? di->columns : m;
+}
+
+/* The texels of a plane nearest to the lanes' samples. Its copy by phases is `skip`
  * floats behind that of the first layer's depth. */
 CRV__INLINE vf crv__group_nearest(const crv__group_pixels *at, const crv__plane *plane,
-                                  ptrdiff_t skip, const crv__group_spot *spot, int32_t y)
+                                  ptrdiff_t skip, const crv__group_spot *spot)
 {
     const crv__deinterleaved *di = at->di;
-    const int32_t column = spot->left + di->left, phase = column & (CRV__PHASES - 1);
-    int32_t m = (column - phase) / CRV__PHASES; /* none of a row beyond its padding */
-    m = m < -CRV__ROW_PADDING ? -CRV__ROW_PADDING : m;
-    m = m > di->columns ? di->columns : m;
+    const int32_t y = spot->y;
+    int32_t phase;
+    const int32_t m = crv__group_spot_column(di, spot, &phase);
     const vf row = vf_load(di->depth + skip + crv__deinterleaved_index(di, y, phase, m));
     const vf first = vf_set(*crv__plane_at(plane, 0, y)),
              last = vf_set(*crv__plane_at(plane, plane->width - 1, y));
     return vf_select(spot->over_left, first, vf_select(spot->over_right, last, row));
 }
 
-/* What is linear over the image of a plane; 0 where there is no surface. */
-CRV__INLINE vf crv__group_linear(const crv__group_pixels *at, vf depth)
+/* What the left or right border's column changes by, on the lanes of `over`, which are
+ * `count` columns away. */
+CRV__INLINE vf crv__group_aside(const crv__deinterleaved *di, const crv__group_spot *spot,
+                                int32_t is_right, vm over, vi count)
 {
-    if (at->frame->params->orthographic)
-        return depth;
-    return vf_where(vf_lt(depth, vf_set(at->di->background)), vf_rcp(depth));
-}
-
-/* Its change from the column at the border to those on the left or right, on the lanes
- * of `over`, which are `count` columns away; in: 1 if the border is the left one, else
- * -1. */
-CRV__INLINE vf crv__group_aside(const crv__group_pixels *at, const crv__group_spot *spot,
-                                vf own, vm over, vi count, int32_t in)
-{
-    const crv__plane *plane = &at->frame->depth[0];
-    const float *border = crv__plane_at(plane, in > 0 ? 0 : plane->width - 1, spot->y);
-    const vf middle = crv__group_linear(at, vf_set(border[2 * in])),
-             inner = crv__group_linear(at, vf_set(border[4 * in]));
-    return vf_where(over, crv__lanes_slope(own, middle, inner) * vf_of(count));
+    const float slope = di->border[crv__border_column(di, is_right, 1, spot->y)];
+    return vf_where(over, vf_set(slope) * vf_of(count));
 }
 
 /* crv__slice_beyond() of the lanes that are off the buffers; as far as the background
  * where there is no surface. */
-CRV__NOINLINE vf crv__group_beyond(const crv__group_pixels *at,
-                                   const crv__group_spot *spot)
+CRV__INLINE vf crv__group_beyond(const crv__group_pixels *at, const crv__group_spot *spot)
 {
     const crv__params *p = at->frame->params;
-    const crv__plane *plane = &at->frame->depth[0];
-    const vf background = vf_set(at->di->background);
-    const vf d = crv__group_nearest(at, plane, 0, spot, spot->y),
-             own = crv__group_linear(at, d);
-    vf w = own;
-    if (p->width > 4 && vm_any(spot->over_left))
-        w = w + crv__group_aside(at, spot, own, spot->over_left, vi_set(0) - spot->u, 1);
-    if (p->width > 4 && vm_any(spot->over_right))
-        w = w
-            + crv__group_aside(at, spot, own, spot->over_right,
-                               spot->u - vi_set(p->width - 1), -1);
-    if (p->height > 4 && spot->y != spot->v) {
-        const int32_t in = spot->v < 0 ? 1 : -1, away = (spot->y - spot->v) * in;
-        const vf middle = crv__group_linear(
-                     at, crv__group_nearest(at, plane, 0, spot, spot->y + 2 * in)),
-                 inner = crv__group_linear(
-                     at, crv__group_nearest(at, plane, 0, spot, spot->y + 4 * in));
-        w = w + crv__lanes_slope(own, middle, inner) * vf_set((float)away);
+    const crv__deinterleaved *di = at->di;
+    vf own, w;
+    if (spot->y == spot->v) {
+        const float left = di->border[crv__border_column(di, 0, 0, spot->y)],
+                    right = di->border[crv__border_column(di, 1, 0, spot->y)];
+        w = own = vf_select(spot->over_left, vf_set(left), vf_set(right));
+    } else {
+        const int32_t is_bottom = spot->v > 0;
+        const int32_t away = is_bottom ? spot->v - spot->y : spot->y - spot->v;
+        int32_t phase;
+        const int32_t m = crv__group_spot_column(di, spot, &phase);
+        own = vf_load(di->border + crv__border_row(di, is_bottom, 0, phase, m));
+        w = vf_fma(vf_load(di->border + crv__border_row(di, is_bottom, 1, phase, m)),
+                   vf_set((float)away), own);
     }
+    if (vm_any(spot->over_left))
+        w = w + crv__group_aside(di, spot, 0, spot->over_left, vi_set(0) - spot->u);
+    if (vm_any(spot->over_right))
+        w = w
+            + crv__group_aside(di, spot, 1, spot->over_right,
+                               spot->u - vi_set(p->width - 1));
     const vf third = own * vf_set(1.0f / 3), thrice = vf_set(3) * own;
     const vm near = p->orthographic ? vf_le(w, thrice) : vf_le(third, w);
     w = p->orthographic ? vf_max(w, third) : vf_rcp(vf_min(w, thrice));
-    return vf_select(vm_and(vf_lt(d, background), near), vf_min(w, background),
-                     background);
+    const vf background = vf_set(di->background); /* of NaN as well: 1/0 */
+    return vf_select(near, vf_min(w, background), background);
 }
 
 #endif

@@ -74,8 +74,7 @@ CRV__INLINE vf width_at(const crv__group_pixels *at, const crv__sample_place *pl
     if (p->border == CRV_BORDER_BACKGROUND)
         return width;
     const crv__group_spot spot = crv__group_spot_at(at, place);
-    return vf_select(spot.off, crv__group_nearest(at, f->map, skip, &spot, spot.y),
-                     width);
+    return vf_select(spot.off, crv__group_nearest(at, f->map, skip, &spot), width);
 }
 
 /* run: how far along the slice the sample's surface has been seen. */

@@ -88,10 +88,11 @@ typedef struct crv__deinterleaved {
 
     /* a list of samples for each bucket and phase: `slices` times at most `steps` */
     int32_t buckets, slices, steps;
-    int32_t shift;  /* of a radius' bits to its bucket */
-    float cap;      /* of the radius, vertically, pixels */
-    float largest;  /* projected radius that has a bucket in every phase, pixels */
-    bool extends;   /* samples off the picture are not all background */
+    int32_t shift; /* of a radius' bits to its bucket */
+    float cap;     /* of the radius, vertically, pixels */
+    float largest; /* projected radius that has a bucket in every phase, pixels */
+    bool extends;  /* samples off the picture are not all background */
+    float *border; /* what they are found from: crv__border_row(), crv__border_column() */
     int32_t paired; /* 0 or 1: every slice has one opposite to it */
     crv__sample *samples;
     crv__sample_place *places;
@@ -131,6 +132,27 @@ static inline ptrdiff_t crv__deinterleaved_index(const crv__deinterleaved *di, i
     const int32_t row = y + di->top, py = row & (CRV__PHASES - 1);
     return di->pitch + (ptrdiff_t)(py * CRV__PHASES + px) * di->plane
            + (ptrdiff_t)(row / CRV__PHASES) * di->pitch + CRV__ROW_PADDING + m;
+}
+
+/*
+ * What is linear over the image of a plane (methods/slice.h), of the first layer, and its
+ * change over a texel from the border outwards: 0 and 1 of `which`. Floats from
+ * di->border on to column m of a phase px of the top or bottom row; beside what holds
+ * pixels there are CRV__ROW_PADDING of the corner's.
+ */
+static inline ptrdiff_t crv__border_row(const crv__deinterleaved *di, int32_t is_bottom,
+                                        int32_t which, int32_t px, int32_t m)
+{
+    const int32_t row = (2 * is_bottom + which) * CRV__PHASES + px;
+    return (ptrdiff_t)row * di->pitch + CRV__ROW_PADDING + m;
+}
+
+/* The same to row y of the left or right column. */
+static inline ptrdiff_t crv__border_column(const crv__deinterleaved *di, int32_t is_right,
+                                           int32_t which, int32_t y)
+{
+    return (ptrdiff_t)4 * CRV__PHASES * di->pitch
+           + (ptrdiff_t)(2 * is_right + which) * (CRV__PHASES * di->rows) + y;
 }
 
 #endif
