@@ -40,21 +40,23 @@ typedef struct sides {
     vf before, after;
 } sides;
 
-/* A row across: edges to the pixels 1, 2 and 4 further on, weights of the second and
- * third level, and values before each level. What is read beside the margins is 0. */
+/* A row across: edges to the pixels 1, 2 and 4 further on, and the weights of the second
+ * and third level. Here and in `values`, what is read beside the margins is 0. */
 typedef struct line {
     _Alignas(64) float edges[3][PITCH], before[2][PITCH], after[2][PITCH];
-    float bent[PLANES - 1][PITCH];
-    float first[PLANES][PITCH], second[PLANES][PITCH];
 } line;
 
-/* What the rows down leave for those below, as rings of as many rows as lie between:
- * edges, weights, and values before each level. */
+/* What the rows down leave for those below, as rings of as many rows as lie between. */
 typedef struct column {
     _Alignas(64) float edge1[2][WIDTH], edge2[3][WIDTH], edge4[5][WIDTH];
     float before2[2][WIDTH], after2[2][WIDTH], before4[6][WIDTH], after4[6][WIDTH];
-    float across[PLANES][2][WIDTH], first[PLANES][4][WIDTH], second[PLANES][8][WIDTH];
 } column;
+
+/* A plane's values before each level: along the row across, and as such rings down. */
+typedef struct values {
+    _Alignas(64) float bent[PITCH], second[PITCH], third[PITCH];
+    float down1[2][WIDTH], down2[4][WIDTH], down4[8][WIDTH];
+} values;
 
 /* A plane's row from column x - LEFT on, PITCH floats; `fill` beside what it holds. */
 CRV__INLINE const float *line_of(const crv__plane *plane, int32_t x, int32_t y,
@@ -117,10 +119,10 @@ CRV__NOINLINE void take_bent(const crv__plane *input, const row *r, int32_t x, i
                              int32_t width, float *out)
 {
     _Alignas(64) float room[PITCH];
-    const float *values = line_of(input, x, y, 0, room);
+    const float *given = line_of(input, x, y, 0, room);
     for (int32_t i = LEFT - MARGIN; i < LEFT + width + MARGIN; i += CRV__LANES)
         vf_store(out + i, vf_where(vf_lt(vf_load(r->depth + i), vf_set(INFINITY)),
-                                   vf_load(values + i)));
+                                   vf_load(given + i)));
 }
 
 /* What edges are made with. Loops are given it by value: what they store may be anything
@@ -244,13 +246,14 @@ CRV__NOINLINE void edges_across(const crv__params *p, const row *r, int32_t widt
 }
 
 /* A level's mean along a line. */
-CRV__INLINE vf mean_across(const float *values, int32_t step, const sides *s)
+CRV__INLINE vf mean_across(const float *at, int32_t step, const sides *s)
 {
-    return mean(vf_load(values), vf_load(values - step), vf_load(values + step), s);
+    return mean(vf_load(at), vf_load(at - step), vf_load(at + step), s);
 }
 
 /* The first two levels along a row, and the weights of the third. */
-CRV__INLINE void levels_across(const row *r, int32_t width, int32_t planes, line *l)
+CRV__INLINE void levels_across(const row *r, int32_t width, int32_t planes, line *l,
+                               values *v)
 {
     const int32_t from = LEFT - MARGIN, to = LEFT + width + MARGIN;
     for (int32_t i = from; i < to; i += CRV__LANES) {
@@ -263,14 +266,14 @@ CRV__INLINE void levels_across(const row *r, int32_t width, int32_t planes, line
             vf_store(l->after[k] + i, s[k + 1].after);
         }
         for (int32_t p = 0; p < planes; p++) {
-            const float *values = p == 0 ? r->value : l->bent[p - 1];
-            vf_store(l->first[p] + i, mean_across(values + i, 1, &s[0]));
+            const float *first = p == 0 ? r->value : v[p].bent;
+            vf_store(v[p].second + i, mean_across(first + i, 1, &s[0]));
         }
     }
     for (int32_t i = from; i < to; i += CRV__LANES) {
         const sides s = {vf_load(l->before[0] + i), vf_load(l->after[0] + i)};
         for (int32_t p = 0; p < planes; p++)
-            vf_store(l->second[p] + i, mean_across(l->first[p] + i, 2, &s));
+            vf_store(v[p].third + i, mean_across(v[p].second + i, 2, &s));
     }
 }
 
@@ -342,7 +345,7 @@ CRV__INLINE void store_result(const output *out, int32_t p, int32_t i, vf result
  * of the row before it, the second 2 before that, and the third 4 before that. Its
  * results are stored unless `out` is NULL. */
 CRV__INLINE void levels_down(const row *rows, const line *l, int32_t k, int32_t width,
-                             int32_t planes, column *c, const output *out)
+                             int32_t planes, column *c, values *v, const output *out)
 {
     /* The depth above and below the row before the k-th. */
     const float *above = rows[(k + ROWS - 2) % ROWS].depth + LEFT,
@@ -356,17 +359,17 @@ CRV__INLINE void levels_down(const row *rows, const line *l, int32_t k, int32_t 
         s[1] = exchanged(c->before2[k % 2] + i, c->after2[k % 2] + i, s[1]);
         s[2] = exchanged(c->before4[k % 6] + i, c->after4[k % 6] + i, s[2]);
         for (int32_t n = 0; n < planes; n++) {
-            float(*first)[WIDTH] = c->first[n], (*second)[WIDTH] = c->second[n];
-            vf v = mean_across(l->second[n] + LEFT + i, 4, &across);
-            v = n == 0 ? vf_clamp01(v) : v;
-            const vf above1 = exchanged_value(c->across[n][k % 2] + i, v);
-            v = mean(vf_load(c->across[n][(k + 1) % 2] + i), above1, v, &s[0]);
-            const vf above2 = exchanged_value(first[k % 4] + i, v);
-            v = mean(vf_load(first[(k + 2) % 4] + i), above2, v, &s[1]);
-            const vf above4 = exchanged_value(second[k % 8] + i, v);
-            v = mean(vf_load(second[(k + 4) % 8] + i), above4, v, &s[2]);
+            values *p = &v[n];
+            vf m = mean_across(p->third + LEFT + i, 4, &across);
+            m = n == 0 ? vf_clamp01(m) : m;
+            const vf above1 = exchanged_value(p->down1[k % 2] + i, m);
+            m = mean(vf_load(p->down1[(k + 1) % 2] + i), above1, m, &s[0]);
+            const vf above2 = exchanged_value(p->down2[k % 4] + i, m);
+            m = mean(vf_load(p->down2[(k + 2) % 4] + i), above2, m, &s[1]);
+            const vf above4 = exchanged_value(p->down4[k % 8] + i, m);
+            m = mean(vf_load(p->down4[(k + 4) % 8] + i), above4, m, &s[2]);
             if (out)
-                store_result(out, n, i, v);
+                store_result(out, n, i, m);
         }
     }
 }
@@ -411,7 +414,7 @@ CRV__INLINE void fill_background(const crv__plane *const out[], int32_t planes,
 }
 
 CRV__INLINE void filter_tile(const crv__frame *f, const crv__plane *const input[],
-                             const crv__plane *const out[], int32_t planes,
+                             const crv__plane *const out[], int32_t planes, values *v,
                              crv__tile whole_tile)
 {
     const crv__tile tile = surfaces_of(f, whole_tile);
@@ -435,12 +438,12 @@ CRV__INLINE void filter_tile(const crv__frame *f, const crv__plane *const input[
             take_row(f, input[0], x, top + k + AHEAD, whole, &window[(k + AHEAD) % ROWS]);
         const row *r = &window[k % ROWS];
         for (int32_t p = 1; p < planes; p++)
-            take_bent(input[p], r, x, top + k, whole, l.bent[p - 1]);
+            take_bent(input[p], r, x, top + k, whole, v[p].bent);
         edges_across(f->params, r, whole, &l);
         edges_down(f->params, window, k, whole, &c);
-        levels_across(r, whole, planes, &l);
+        levels_across(r, whole, planes, &l, v);
         if (k < 2 * RADIUS) {
-            levels_down(window, &l, k, whole, planes, &c, NULL);
+            levels_down(window, &l, k, whole, planes, &c, v, NULL);
             continue;
         }
         const int32_t y = top + k - RADIUS;
@@ -449,14 +452,15 @@ CRV__INLINE void filter_tile(const crv__frame *f, const crv__plane *const input[
                      .width = width};
         for (int32_t p = 0; p < planes; p++)
             to.to[p] = output_row(out[p], x, y, whole);
-        levels_down(window, &l, k, whole, planes, &c, &to);
+        levels_down(window, &l, k, whole, planes, &c, v, &to);
     }
 }
 
 CRV__NOINLINE void filter_accessibility(const crv__frame *f, const crv__plane *input,
                                         const crv__plane *out, crv__tile tile)
 {
-    filter_tile(f, &input, &out, 1, tile);
+    values v = {0};
+    filter_tile(f, &input, &out, 1, &v, tile);
 }
 
 CRV__NOINLINE void filter_all(const crv__frame *f, const crv__picture *input,
@@ -466,7 +470,8 @@ CRV__NOINLINE void filter_all(const crv__frame *f, const crv__picture *input,
                                               &input->bent[1], &input->bent[2]};
     const crv__plane *const outs[PLANES] = {&out->accessibility, &out->bent[0],
                                             &out->bent[1], &out->bent[2]};
-    filter_tile(f, inputs, outs, PLANES, tile);
+    values v[PLANES] = {0};
+    filter_tile(f, inputs, outs, PLANES, v, tile);
 }
 
 void CRV__NAME(edges15)(const crv__frame *f, const crv__picture *input,
