@@ -60,6 +60,12 @@ def write_mesh(path: Path, heights: np.ndarray) -> None:
         faces.tofile(file)
 
 
+def time_told(notes: str) -> float:
+    """In seconds. What is told as 0.00 took less than half a hundredth."""
+    found = TIME.search(notes)
+    return max(float(found[1]), 0.005) if found else float("nan")
+
+
 class Relief:
     def __init__(self, s: Study):
         self.s = s
@@ -97,8 +103,7 @@ class Relief:
         """Of the estimate alone, as the tool tells; a large picture, as it tells hundredths."""
         large = 4 * self.height
         made = self.render(options, self.camera[:-1] + [f"{large * 16 // 9}x{large}"])
-        found = TIME.search(self.s.tool.notes(made))
-        return float(found[1]) if found else float("nan")
+        return time_told(self.s.tool.notes(made))
 
 
 def steps(s: Study, json: dict[str, Any]) -> list[Step]:
