@@ -61,15 +61,22 @@ CRV__INLINE void add_groups(sectors *to, vf weight, vi bits)
         to->blocked[g] = vf_fma(weight, crv__group_count(counts, g), to->blocked[g]);
 }
 
+/* Where the map's values at a sample are, if it is on the picture. */
+CRV__INLINE const float *width_place(const crv__group_pixels *at,
+                                     const crv__sample_place *place)
+{
+    return at->own + place->offset[0] + at->frame->params->layers * at->di->layer_pitch;
+}
+
 /* The map's values at a sample. */
 CRV__INLINE vf width_at(const crv__group_pixels *at, const crv__sample_place *place,
                         int border)
 {
     const crv__frame *f = at->frame;
     const crv__params *p = f->params;
-    const ptrdiff_t skip = p->layers * at->di->layer_pitch;
     if (!border || crv__group_slice_is_inside(at, place))
-        return crv__sample_depth(at, at->own + place->offset[0] + skip);
+        return crv__sample_depth(at, width_place(at, place));
+    const ptrdiff_t skip = p->layers * at->di->layer_pitch;
     const vf width = crv__sample_depth(at, crv__sample_at(at, place, 0, border) + skip);
     if (p->border == CRV_BORDER_BACKGROUND)
         return width;
@@ -187,8 +194,12 @@ CRV__INLINE risen *collect(risen *to, sectors *so_far, const crv__group_pixels *
         to->x = x;
         to->height = height;
         to->run = x - start;
-        if (c.border && c.rule == CRV_THICKNESS_WIDTH)
+        if (c.rule == CRV_THICKNESS_WIDTH && c.border) {
             to->width = width_at(at, place, true);
+        } else if (c.rule == CRV_THICKNESS_WIDTH) {
+            __builtin_prefetch(width_place(at, place)); /* its body may follow */
+            __builtin_prefetch(width_place(at, place) + 15);
+        }
         to->index = i;
         to->slice = k;
         to += vm_any(vf_lt(x * vf_set(sample->front) * rise, height)) ? 1 : 0;
