@@ -57,27 +57,21 @@ static void run_kernel(crv__filter_kernel kernel, const crv__frame *frame,
         }
 }
 
-static void check_kernel(crv__filter_kernel kernel)
+typedef void (*check)(crv__filter_kernel kernel, const crv__frame *frame);
+
+static void check_weights(crv__filter_kernel kernel, const crv__frame *frame)
 {
-    const crv__params params = {.width = WIDTH,
-                                .height = HEIGHT,
-                                .filter_depth = 0.1f,
-                                .filter_slope = 1,
-                                .filter_normal = 10};
-    const crv__plane depths = plane_of(depth);
-    const crv__plane normals[3] = {plane_of(normal[0]), plane_of(normal[1]),
-                                   plane_of(normal[2])};
-    const crv__frame frame = {.params = &params, .depth = &depths, .normal = normals};
     crv__picture input = {.accessibility = plane_of(values)},
                  out = {.accessibility = plane_of(alone)};
-    run_kernel(kernel, &frame, &input, &out);
+    make_scene();
+    run_kernel(kernel, frame, &input, &out);
     input.bent[0] = plane_of(values);
     input.bent[1] = plane_of(minus);
     input.bent[2] = plane_of(normal[1]); /* zeros */
     out.accessibility = plane_of(together[0]);
     for (int k = 0; k < 3; k++)
         out.bent[k] = plane_of(together[k + 1]);
-    run_kernel(kernel, &frame, &input, &out);
+    run_kernel(kernel, frame, &input, &out);
     double change = 0;
     for (int32_t i = 0; i < COUNT; i++) {
         if (i % PITCH >= WIDTH)
@@ -94,10 +88,45 @@ static void check_kernel(crv__filter_kernel kernel)
     assert_true(change > 0.05 * WIDTH * HEIGHT); /* noise of 0.2 has been filtered */
 }
 
-static void planes_share_their_weights(void **state)
+/* What is left of the floor lies in one corner of the tiles that it touches, or else all
+ * corners have a pixel of it, too far to be in the windows of others. */
+static void check_background(crv__filter_kernel kernel, const crv__frame *frame)
 {
-    (void)state;
+    const crv__picture input = {.accessibility = plane_of(values)},
+                       few = {.accessibility = plane_of(alone)},
+                       many = {.accessibility = plane_of(together[0])};
     make_scene();
+    for (int32_t i = 0; i < COUNT; i++) {
+        const int32_t x = i % PITCH, y = i / PITCH;
+        if (x < 30 || x >= 50 || y < 20 || y >= 53)
+            depth[i] = INFINITY;
+    }
+    run_kernel(kernel, frame, &input, &few);
+    static const int32_t X[] = {0, CRV__FILTER_TILE_WIDTH - 1, WIDTH - 1},
+                         Y[] = {0, CRV__FILTER_TILE_HEIGHT - 1, HEIGHT - 1};
+    for (int k = 0; k < 9; k++)
+        depth[Y[k / 3] * PITCH + X[k % 3]] = 6;
+    run_kernel(kernel, frame, &input, &many);
+    for (int32_t i = 0; i < COUNT; i++) {
+        const int32_t x = i % PITCH, y = i / PITCH;
+        if (x >= 30 && x < 50 && y >= 20 && y < 53)
+            assert_true(alone[i] == together[0][i] && alone[i] < 1);
+        else if (x < WIDTH && !(depth[i] < INFINITY))
+            assert_true(alone[i] == 1 && together[0][i] == 1);
+    }
+}
+
+static void for_every_kernel(check check_kernel)
+{
+    const crv__params params = {.width = WIDTH,
+                                .height = HEIGHT,
+                                .filter_depth = 0.1f,
+                                .filter_slope = 1,
+                                .filter_normal = 10};
+    const crv__plane depths = plane_of(depth);
+    const crv__plane normals[3] = {plane_of(normal[0]), plane_of(normal[1]),
+                                   plane_of(normal[2])};
+    const crv__frame frame = {.params = &params, .depth = &depths, .normal = normals};
     for (int isa = 0; isa < 32; isa++) {
         if (!(crv_isa_available() >> isa & 1))
             continue;
@@ -107,15 +136,28 @@ static void planes_share_their_weights(void **state)
         crv_context *context = NULL;
         assert_int_equal(crv_context_create(&desc, &context), CRV_OK);
         for (int k = 0; k < CRV__FILTER_COUNT && context->kernels; k++)
-            check_kernel(context->kernels->filters[k]);
+            check_kernel(context->kernels->filters[k], &frame);
         crv_context_destroy(context);
     }
+}
+
+static void planes_share_their_weights(void **state)
+{
+    (void)state;
+    for_every_kernel(check_weights);
+}
+
+static void background_in_a_tile_changes_nothing(void **state)
+{
+    (void)state;
+    for_every_kernel(check_background);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(planes_share_their_weights),
+        cmocka_unit_test(background_in_a_tile_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -385,21 +385,30 @@ CRV__INLINE float *output_row(const crv__plane *out, int32_t x, int32_t y, int32
     return to;
 }
 
-/* The part of a tile, in whole vectors, that holds its surfaces; none: it is empty. */
+/* Widens the part of a tile to the surfaces of a row, in whole vectors. */
+CRV__INLINE void widen(const crv__frame *f, crv__tile tile, int32_t y, crv__tile *part)
+{
+    for (int32_t x = tile.x0; x < tile.x1; x += CRV__LANES) {
+        const int32_t count = tile.x1 - x < CRV__LANES ? tile.x1 - x : CRV__LANES;
+        const vf depth = vf_load_n(crv__plane_at(&f->depth[0], x, y), count);
+        if (!vm_any(vm_and(vm_first(count), vf_lt(depth, vf_set(INFINITY)))))
+            continue;
+        part->x0 = x < part->x0 ? x : part->x0;
+        part->x1 = x + count > part->x1 ? x + count : part->x1;
+        part->y0 = y < part->y0 ? y : part->y0;
+        part->y1 = y + 1 > part->y1 ? y + 1 : part->y1;
+    }
+}
+
+/* The part that holds all surfaces of a tile; none: it is empty. */
 CRV__INLINE crv__tile surfaces_of(const crv__frame *f, crv__tile tile)
 {
     crv__tile part = {tile.x1, tile.x0, tile.y1, tile.y0};
-    for (int32_t y = tile.y0; y < tile.y1; y++)
-        for (int32_t x = tile.x0; x < tile.x1; x += CRV__LANES) {
-            const int32_t count = tile.x1 - x < CRV__LANES ? tile.x1 - x : CRV__LANES;
-            const vf depth = vf_load_n(crv__plane_at(&f->depth[0], x, y), count);
-            if (!vm_any(vm_and(vm_first(count), vf_lt(depth, vf_set(INFINITY)))))
-                continue;
-            part.x0 = x < part.x0 ? x : part.x0;
-            part.x1 = x + count > part.x1 ? x + count : part.x1;
-            part.y0 = y < part.y0 ? y : part.y0;
-            part.y1 = y + 1;
-        }
+    for (int32_t y = tile.y0; y < tile.y1 && (part.x0 > tile.x0 || part.x1 < tile.x1);
+         y++)
+        widen(f, tile, y, &part);
+    for (int32_t y = tile.y1 - 1; y >= part.y1; y--)
+        widen(f, tile, y, &part);
     return part;
 }
 
