@@ -137,6 +137,57 @@ static void sets_compute_the_reference(void **state)
     }
 }
 
+/* A case's result with this depth in the upper rows of its first layer. */
+static float *run_below(simd_case *c, crv_isa isa, float depth)
+{
+    enum { ROWS = 2 };
+    for (int32_t i = 0; i < ROWS * c->desc.width; i++)
+        c->depth[0][i] = depth;
+    float *result = simd_run(c, isa);
+    assert_non_null(result);
+    return result;
+}
+
+/* Beyond a border whose depth has no reciprocal but a denormal one, and yet is finite,
+ * nothing blocks, as beyond background. */
+static void huge_depth_at_a_border_is_background(void **state)
+{
+    (void)state;
+    enum { FIRST = 4 }; /* the row from which on normals do not see the border */
+    static const char *const NAMES[] = {"gtao", "bitmask"};
+    int32_t compared = 0;
+    for (int32_t k = 0; k < CASES / SIMD_SCENES * 2; k++) {
+        simd_case *c = make_case(NAMES[k & 1], (k >> 1) * SIMD_SCENES + SIMD_SMOOTH);
+        c->options.bent_normal = 1;
+        c->options.attenuation = CRV_ATTENUATION_SLAB;
+        c->options.border = CRV_BORDER_EXTRAPOLATE;
+        c->desc.layers = 1;
+        const int32_t count = pixel_count(c);
+        const int32_t rest = c->desc.guard_top < FIRST ? FIRST - c->desc.guard_top : 0;
+        const int32_t from =
+            rest * (c->desc.width - c->desc.guard_left - c->desc.guard_right);
+        for (int isa = 0; isa < SETS && from < count; isa++) {
+            if (isa && !(crv_isa_available() >> isa & 1))
+                continue;
+            float *huge = run_below(c, (crv_isa)isa, 3e38f),
+                  *background = run_below(c, (crv_isa)isa, INFINITY);
+            const int32_t over =
+                count_beyond(huge + from, background + from, count - from, 1e-6)
+                + count_bent_beyond(background + count + 3 * from,
+                                    huge + count + 3 * from, count - from);
+            if (over) {
+                simd_case_print(c);
+                fail_msg("%s: %d of %d px", crv_isa_name((crv_isa)isa), over, count);
+            }
+            compared += count - from;
+            free(huge);
+            free(background);
+        }
+        simd_case_free(c);
+    }
+    assert_true(compared > 10000);
+}
+
 static float *compute(const fixture *f, const crv_options *options, int32_t exact)
 {
     return fixture_compute(f, options, &(fixture_run){.exact = exact});
@@ -209,6 +260,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sets_compute_the_reference),
+        cmocka_unit_test(huge_depth_at_a_border_is_background),
         cmocka_unit_test(the_mean_is_the_exact_one),
         cmocka_unit_test(many_samples_converge_to_the_exact_value),
     };

@@ -99,8 +99,10 @@ CRV__INLINE vf crv__group_beyond(const crv__group_pixels *at, const crv__group_s
                                spot->u - vi_set(p->width - 1));
     const vf third = own * vf_set(1.0f / 3), thrice = vf_set(3) * own;
     const vm near = p->orthographic ? vf_le(w, thrice) : vf_le(third, w);
-    w = p->orthographic ? vf_max(w, third) : vf_rcp(vf_min(w, thrice));
-    const vf background = vf_set(di->background); /* of NaN as well: 1/0 */
+    const vf background = vf_set(di->background);
+    /* Estimates of a reciprocal end at tiny numbers. */
+    const vf least = vf_set(1 / di->background);
+    w = p->orthographic ? vf_max(w, third) : vf_rcp(vf_max(vf_min(w, thrice), least));
     return vf_select(near, vf_min(w, background), background);
 }
 
