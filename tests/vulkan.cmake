@@ -5,7 +5,7 @@ add_executable(test_vulkan_agreement test_vulkan_agreement.c simd_case.c)
 target_link_libraries(test_vulkan_agreement PRIVATE crevice::crevice crevice_flags ${CREVICE_LIBM})
 # The seed is fixed, so that a change is judged by itself; by hand every run has another.
 # Sanitizers look at the C code, which is much the same in every case.
-set(crevice_vulkan_cases 20)
+set(crevice_vulkan_cases 12)
 if(CREVICE_SANITIZE)
     set(crevice_vulkan_cases 2)
 endif()
