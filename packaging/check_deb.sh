@@ -18,6 +18,10 @@ mkdir -p "$1"
 out=$(cd -- "$1" && pwd)
 rm -rf "$out"/*.deb "$out/root"
 
+# Nothing here waits for results: -O1 is compiled in half the time.
+DEB_CFLAGS_APPEND=-O1
+export DEB_CFLAGS_APPEND
+
 echo "-- dpkg-buildpackage"
 "$root/packaging/build_deb.sh" "$out" >"$out/build.log" 2>&1 \
     || { tail -40 "$out/build.log" >&2; exit 1; }
