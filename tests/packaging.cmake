@@ -17,12 +17,8 @@ endfunction()
 
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 style_test(style_arrows ${Python3_EXECUTABLE} ${here}/check_arrows.py ${PROJECT_SOURCE_DIR})
-set(objects "$<JOIN:$<TARGET_OBJECTS:crevice>,\n>\n")
-get_property(sets GLOBAL PROPERTY CREVICE_SETS)
-foreach(set IN LISTS sets)
-    string(APPEND objects "$<JOIN:$<TARGET_OBJECTS:crevice_kernels_${set}>,\n>\n")
-endforeach()
-file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/objects.txt CONTENT "${objects}")
+file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/objects.txt
+    CONTENT "$<JOIN:${crevice_objects},\n>\n")
 style_test(style_symbols ${Python3_EXECUTABLE} ${here}/check_symbols.py ${CMAKE_NM}
     ${CMAKE_CURRENT_BINARY_DIR}/objects.txt)
 style_test(style_text ${Python3_EXECUTABLE} ${here}/check_style.py ${PROJECT_SOURCE_DIR})

@@ -1,30 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #include "cpu/border.h"
 
-#include <math.h>
+#include "core/border.h"
 
 size_t crv__border_size(const crv__deinterleaved *di)
 {
     return (size_t)crv__border_column(di, 2, 0, 0);
-}
-
-static float linear_at(const crv__frame *f, int32_t x, int32_t y)
-{
-    const float d = *crv__plane_at(&f->depth[0], x, y);
-    return f->params->orthographic ? d : 1 / d;
-}
-
-/* The change over a texel from the border outwards; (in_x, in_y) is a texel inwards. */
-static float slope_at(const crv__frame *f, int32_t x, int32_t y, int32_t in_x,
-                      int32_t in_y)
-{
-    if (!crv__plane_holds(&f->depth[0], x + 4 * in_x, y + 4 * in_y))
-        return 0;
-    const float own = linear_at(f, x, y),
-                middle = linear_at(f, x + 2 * in_x, y + 2 * in_y),
-                inner = linear_at(f, x + 4 * in_x, y + 4 * in_y);
-    const bool is_planar = inner > 0 && fabsf(own - 2 * middle + inner) < 0.01f * own;
-    return is_planar ? 0.25f * (own - inner) : 0;
 }
 
 static void fill_row(const crv__deinterleaved *di, const crv__frame *f, int32_t is_bottom)
@@ -37,8 +18,8 @@ static void fill_row(const crv__deinterleaved *di, const crv__frame *f, int32_t 
         for (int32_t m = -CRV__ROW_PADDING; m < di->pitch - CRV__ROW_PADDING; m++) {
             const int32_t column = m * CRV__PHASES + px - di->left;
             const int32_t x = column < 0 ? 0 : column > right ? right : column;
-            linear[m] = linear_at(f, x, y);
-            slope[m] = slope_at(f, x, y, 0, is_bottom ? -1 : 1);
+            linear[m] = crv__border_linear(f, x, y);
+            slope[m] = crv__border_outward(f, x, y, 0, is_bottom ? -1 : 1, linear[m]);
         }
     }
 }
@@ -50,8 +31,8 @@ static void fill_column(const crv__deinterleaved *di, const crv__frame *f,
     float *linear = di->border + crv__border_column(di, is_right, 0, 0),
           *slope = di->border + crv__border_column(di, is_right, 1, 0);
     for (int32_t y = 0; y < f->params->height; y++) {
-        linear[y] = linear_at(f, x, y);
-        slope[y] = slope_at(f, x, y, is_right ? -1 : 1, 0);
+        linear[y] = crv__border_linear(f, x, y);
+        slope[y] = crv__border_outward(f, x, y, is_right ? -1 : 1, 0, linear[y]);
     }
 }
 

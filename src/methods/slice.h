@@ -46,6 +46,7 @@
 #ifndef CRV_METHODS_SLICE_H
 #define CRV_METHODS_SLICE_H
 
+#include "core/border.h"
 #include "core/falloff.h"
 #include "methods/bent.h"
 
@@ -206,26 +207,6 @@ static inline bool crv__slice_texel_at(const crv__params *p, const crv__slice_si
     return true;
 }
 
-/* What is linear over the image of a plane: 1/d, orthographic d. */
-static inline float crv__slice_linear(const crv__frame *f, int32_t x, int32_t y)
-{
-    const float d = *crv__plane_at(&f->depth[0], x, y);
-    return f->params->orthographic ? d : 1 / d;
-}
-
-/* Its change over one texel outwards at a border, from four texels inwards (in_x, in_y);
- * 0 where the surface is not planar or the picture is smaller. */
-static inline float crv__slice_outward(const crv__frame *f, int32_t x, int32_t y,
-                                       int32_t in_x, int32_t in_y, float own)
-{
-    if (!crv__plane_holds(&f->depth[0], x + 4 * in_x, y + 4 * in_y))
-        return 0;
-    const float middle = crv__slice_linear(f, x + 2 * in_x, y + 2 * in_y);
-    const float inner = crv__slice_linear(f, x + 4 * in_x, y + 4 * in_y);
-    const bool is_planar = inner > 0 && fabsf(own - 2 * middle + inner) < 0.01f * own;
-    return is_planar ? 0.25f * (own - inner) : 0;
-}
-
 /* The first layer's depth beyond the borders: planes go on, up to a third of the border's
  * own. Beyond three times that there is nothing: less than the plane's depth would be in
  * front of it. */
@@ -238,12 +219,12 @@ static inline float crv__slice_beyond(const crv__frame *f, int32_t u, int32_t v)
     const float d = *crv__plane_at(&f->depth[0], x, y);
     if (p->border == CRV_BORDER_BACKGROUND || !(d < INFINITY))
         return INFINITY;
-    const float own = crv__slice_linear(f, x, y);
+    const float own = crv__border_linear(f, x, y);
     float w = own;
     if (u != x)
-        w += crv__slice_outward(f, x, y, u < 0 ? 1 : -1, 0, own) * fabsf((float)(u - x));
+        w += crv__border_outward(f, x, y, u < 0 ? 1 : -1, 0, own) * fabsf((float)(u - x));
     if (v != y)
-        w += crv__slice_outward(f, x, y, 0, v < 0 ? 1 : -1, own) * fabsf((float)(v - y));
+        w += crv__border_outward(f, x, y, 0, v < 0 ? 1 : -1, own) * fabsf((float)(v - y));
     if (p->orthographic)
         return w > 3 * own ? INFINITY : fmaxf(own / 3, w);
     return w < own / 3 ? INFINITY : 1 / fminf(3 * own, w);

@@ -8,7 +8,6 @@
 #define CRV_CPU_KERNELS_BEYOND_H
 
 #include "cpu/kernels/groups.h"
-#include "cpu/kernels/slice.h"
 
 /* Where the lanes have a sample. */
 typedef struct crv__group_spot {

@@ -181,23 +181,17 @@ CRV__INLINE vf crv__lanes_linear(const crv__frame *f, crv__shape shape, vi x, vi
     return shape.orthographic ? d : vf_set(1) / d;
 }
 
-/* crv__slice_outward() over one texel, from what is linear at the border, two texels
- * inwards and four. */
-CRV__INLINE vf crv__lanes_slope(vf own, vf middle, vf inner)
-{
-    const vf bend = vf_abs(own - vf_set(2) * middle + inner);
-    const vm planar = vm_and(vf_lt(vf_zero(), inner), vf_lt(bend, vf_set(0.01f) * own));
-    return vf_where(planar, vf_set(0.25f) * (own - inner));
-}
-
-/* crv__slice_outward() of the lanes of `mask`: over `count` texels. */
+/* crv__border_outward() of the lanes of `mask`: over `count` texels. */
 CRV__INLINE vf crv__lanes_outward(const crv__frame *f, crv__shape shape, vi x, vi y,
                                   vi in_x, vi in_y, vm mask, vf own, vi count)
 {
     const vi two = vi_set(2), four = vi_set(4);
     const vf middle = crv__lanes_linear(f, shape, x + two * in_x, y + two * in_y, mask);
     const vf inner = crv__lanes_linear(f, shape, x + four * in_x, y + four * in_y, mask);
-    return vf_where(mask, crv__lanes_slope(own, middle, inner) * vf_abs(vf_of(count)));
+    const vf bend = vf_abs(own - vf_set(2) * middle + inner);
+    const vm planar = vm_and(vf_lt(vf_zero(), inner), vf_lt(bend, vf_set(0.01f) * own));
+    return vf_where(vm_and(mask, planar),
+                    vf_set(0.25f) * (own - inner) * vf_abs(vf_of(count)));
 }
 
 /* crv__slice_beyond() of the lanes of `mask`. */

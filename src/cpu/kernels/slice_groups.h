@@ -16,6 +16,7 @@
 #define CRV_CPU_KERNELS_SLICE_GROUPS_H
 
 #include "cpu/kernels/beyond.h"
+#include "cpu/kernels/slice.h"
 
 /* What does not change from slice to slice. */
 typedef struct crv__slice_view {
